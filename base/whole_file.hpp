@@ -1,0 +1,38 @@
+// Files that appear whole or not at all: written beside their place, then renamed into it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/bytes.hpp"
+
+namespace viaface {
+
+// A name beside `final_path` to write to; commit() renames it into place, destruction without commit removes it.
+// InputError("output", ...) when the folder cannot be written to.
+class WholeFile {
+  public:
+    explicit WholeFile(std::filesystem::path final_path);
+    ~WholeFile();
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+
+    const std::filesystem::path& path() const { return partial_; }
+    void commit();
+
+  private:
+    std::filesystem::path final_, partial_;
+    bool committed_ = false;
+};
+
+void write_whole(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+void write_whole(const std::filesystem::path& path, std::string_view text);
+
+// InputError(field, path, ...) when missing, unreadable or over `limit` bytes.
+Bytes read_bytes(const std::filesystem::path& path, const std::string& field, std::size_t limit = 1u << 30);
+std::string read_text(const std::filesystem::path& path, const std::string& field, std::size_t limit = 1u << 30);
+
+}  // namespace viaface
