@@ -15,8 +15,8 @@ void ByteWriter::append(const void* data, std::size_t size) {
 
 std::span<const std::uint8_t> ByteReader::take(std::size_t size) {
     if (size > left()) {
-        throw std::runtime_error("cut short at byte " + std::to_string(offset_) + ": " + std::to_string(size) +
-                                 " wanted, " + std::to_string(left()) + " left");
+        throw std::runtime_error("cut short at byte " + std::to_string(offset_) + ": " +
+                                 std::to_string(size) + " wanted, " + std::to_string(left()) + " left");
     }
     const auto taken = bytes_.subspan(offset_, size);
     offset_ += size;

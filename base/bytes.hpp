@@ -1,4 +1,5 @@
-// Little-endian bytes, written and read with every bound checked. Readers throw std::runtime_error naming the offset.
+// Little-endian bytes, written and read with every bound checked. Readers throw std::runtime_error naming the
+// offset.
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,8 @@
 
 namespace viaface {
 
-// A name beside `final_path` to write to; commit() renames it into place, destruction without commit removes it.
-// InputError("output", ...) when the folder cannot be written to.
+// A name beside `final_path` to write to; commit() renames it into place, destruction without commit removes
+// it. InputError("output", ...) when the folder cannot be written to.
 class WholeFile {
   public:
     explicit WholeFile(std::filesystem::path final_path);
@@ -33,6 +33,7 @@ void write_whole(const std::filesystem::path& path, std::string_view text);
 
 // InputError(field, path, ...) when missing, unreadable or over `limit` bytes.
 Bytes read_bytes(const std::filesystem::path& path, const std::string& field, std::size_t limit = 1u << 30);
-std::string read_text(const std::filesystem::path& path, const std::string& field, std::size_t limit = 1u << 30);
+std::string read_text(const std::filesystem::path& path, const std::string& field,
+                      std::size_t limit = 1u << 30);
 
 }  // namespace viaface

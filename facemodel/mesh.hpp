@@ -8,8 +8,8 @@
 namespace viaface {
 
 using Nodes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  // [nodes x 3], mm, head frame
-using Triangle = std::array<int, 3>;                                      // counter-clockwise seen from outside
-using Polygon = std::array<int, 4>;                                       // as Triangle; the last is -1 for a triangle
+using Triangle = std::array<int, 3>;  // counter-clockwise seen from outside
+using Polygon = std::array<int, 4>;   // as Triangle; the last is -1 for a triangle
 
 struct Mesh {
     Nodes nodes;

@@ -7,15 +7,44 @@
 namespace viaface {
 namespace {
 
-constexpr std::array<std::string_view, kPoints> kNames = {
-    "lip_top",          "lip_top_left",     "lip_corner_left",    "lip_bottom_left",   "lip_bottom",
-    "lip_bottom_right", "lip_corner_right", "lip_top_right",      "chin",              "chin_left",
-    "chin_right",       "jaw_left",         "jaw_right",          "cheek_lower_left",  "cheek_lower_right",
-    "cheek_upper_left", "cheek_upper_right", "nose",              "border_top",        "border_top_left",
-    "border_left",      "border_bottom_left", "border_bottom",    "border_bottom_right", "border_right",
-    "border_top_right", "inner_top",        "inner_top_left",     "inner_left",        "inner_bottom_left",
-    "inner_bottom",     "inner_bottom_right", "inner_right",      "inner_top_right",   "lower_incisor",
-    "tongue_tip",       "tongue_body",      "tongue_rear"};
+constexpr std::array<std::string_view, kPoints> kNames = {"lip_top",
+                                                          "lip_top_left",
+                                                          "lip_corner_left",
+                                                          "lip_bottom_left",
+                                                          "lip_bottom",
+                                                          "lip_bottom_right",
+                                                          "lip_corner_right",
+                                                          "lip_top_right",
+                                                          "chin",
+                                                          "chin_left",
+                                                          "chin_right",
+                                                          "jaw_left",
+                                                          "jaw_right",
+                                                          "cheek_lower_left",
+                                                          "cheek_lower_right",
+                                                          "cheek_upper_left",
+                                                          "cheek_upper_right",
+                                                          "nose",
+                                                          "border_top",
+                                                          "border_top_left",
+                                                          "border_left",
+                                                          "border_bottom_left",
+                                                          "border_bottom",
+                                                          "border_bottom_right",
+                                                          "border_right",
+                                                          "border_top_right",
+                                                          "inner_top",
+                                                          "inner_top_left",
+                                                          "inner_left",
+                                                          "inner_bottom_left",
+                                                          "inner_bottom",
+                                                          "inner_bottom_right",
+                                                          "inner_right",
+                                                          "inner_top_right",
+                                                          "lower_incisor",
+                                                          "tongue_tip",
+                                                          "tongue_body",
+                                                          "tongue_rear"};
 
 }  // namespace
 

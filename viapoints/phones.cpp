@@ -57,7 +57,8 @@ constexpr std::array<PhoneInfo, 41> kTable = {{
 
 std::string lower(std::string_view name) {
     std::string result(name);
-    std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(result.begin(), result.end(), result.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     return result;
 }
 
@@ -80,8 +81,10 @@ StressedPhone parse_phone(std::string_view name) {
     }
     if (stress < 0 && (plain == "sp" || plain == "sil" || plain == "ssil" || plain == "h#")) plain = "pau";
     if (plain == "ah" && stress == 0) plain = "ax";
-    const auto found = std::find_if(kTable.begin(), kTable.end(), [&](const auto& p) { return p.name == plain; });
-    if (found == kTable.end() || (stress >= 0 && !found->vowel)) throw InputError("phone", std::string(name), all_names());
+    const auto found =
+        std::find_if(kTable.begin(), kTable.end(), [&](const auto& p) { return p.name == plain; });
+    if (found == kTable.end() || (stress >= 0 && !found->vowel))
+        throw InputError("phone", std::string(name), all_names());
     return {static_cast<PhoneId>(found - kTable.begin()), std::max(stress, 0)};
 }
 

@@ -1,5 +1,6 @@
-// The phones of English as ARPAbet writes them, with IPA, an example word and the class of phones that look alike.
-// Names are read case-insensitively and with a stress digit ("AA1"); ah0 is ax; sp, sil, ssil and h# are pau.
+// The phones of English as ARPAbet writes them, with IPA, an example word and the class of phones that look
+// alike. Names are read case-insensitively and with a stress digit ("AA1"); ah0 is ax; sp, sil, ssil and h#
+// are pau.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,24 @@ namespace viaface {
 
 // Phones that look alike to the eye, close enough to stand in for each other where a triphone is missing.
 enum class VisemeClass : std::uint8_t {
-    kPause, kBilabial, kLabiodental, kDental, kAlveolar, kLateral, kSibilant, kPostalveolar, kVelar, kRhotic,
-    kLabialGlide, kPalatalGlide, kFrontClose, kFrontMid, kOpen, kCentral, kRoundedClose, kRoundedMid
+    kPause,
+    kBilabial,
+    kLabiodental,
+    kDental,
+    kAlveolar,
+    kLateral,
+    kSibilant,
+    kPostalveolar,
+    kVelar,
+    kRhotic,
+    kLabialGlide,
+    kPalatalGlide,
+    kFrontClose,
+    kFrontMid,
+    kOpen,
+    kCentral,
+    kRoundedClose,
+    kRoundedMid
 };
 
 using PhoneId = std::uint8_t;  // index into phone_table()

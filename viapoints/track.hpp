@@ -9,7 +9,7 @@ namespace viaface {
 
 struct ViaPointTrack {
     std::vector<double> time_s;  // strictly rising
-    RowMatrix points;            // [via points x dimensions]: 114 (mm, head frame), or the components of a PCA basis
+    RowMatrix points;  // [via points x dimensions]: 114 (mm, head frame), or the components of a PCA basis
 };
 
 }  // namespace viaface
