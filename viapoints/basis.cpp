@@ -97,12 +97,8 @@ RowMatrix to_points(const ConfigurationBasis& basis, const RowMatrix& components
 }
 
 double truncation_error_mm(const ConfigurationBasis& basis, const RowMatrix& points) {
-    const RowMatrix difference =
-        coordinates_of(points - to_points(basis, to_components(basis, points)), points_of(basis));
-    double largest = 0;
-    for (Index i = 0; i < difference.rows(); ++i)
-        largest = std::max(largest, longest_triple(difference.row(i)));
-    return largest;
+    return longest_triple(
+        coordinates_of(points - to_points(basis, to_components(basis, points)), points_of(basis)));
 }
 
 }  // namespace viaface

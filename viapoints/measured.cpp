@@ -45,10 +45,13 @@ RowMatrix coordinates_of(const RowMatrix& positions, const std::vector<int>& poi
     return packed;
 }
 
-double longest_triple(const Eigen::Ref<const Eigen::RowVectorXd>& triples) {
+double longest_triple(const Eigen::Ref<const RowMatrix>& triples) {
     double longest = 0;
-    for (Index i = 0; i + 2 < triples.size(); i += 3)
-        longest = std::max(longest, triples.segment<3>(i).squaredNorm());
+    for (Index row = 0; row < triples.rows(); ++row) {
+        for (Index i = 0; i + 2 < triples.cols(); i += 3) {
+            longest = std::max(longest, triples.block<1, 3>(row, i).squaredNorm());
+        }
+    }
     return std::sqrt(longest);
 }
 

@@ -15,7 +15,7 @@ std::vector<int> measured_points(const RowMatrix& positions, const std::string& 
 // The coordinates of the points given, x y z of the first one first: [samples x 3 * points].
 RowMatrix coordinates_of(const RowMatrix& positions, const std::vector<int>& points);
 
-// The largest 3-D length among consecutive triples.
-double longest_triple(const Eigen::Ref<const Eigen::RowVectorXd>& triples);
+// The largest 3-D length among consecutive triples of any row.
+double longest_triple(const Eigen::Ref<const RowMatrix>& triples);
 
 }  // namespace viaface

@@ -1,0 +1,181 @@
+#include "viapoints/analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "tests/viapoints/haskins.hpp"
+#include "tests/viapoints/smooth_motion.hpp"
+#include "viapoints/measured.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Index;
+
+// The largest distance by its definition, with nothing shared with the code under test.
+double largest_error(const Motion& motion, const RowMatrix& recovered) {
+    double largest = 0;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const Configuration was = motion.at(i), is = recovered.row(static_cast<Index>(i)).transpose();
+        for (int p = 0; p < kPoints; ++p) {
+            if (point_of(was, p).hasNaN()) continue;
+            const double distance = (point_of(was, p) - point_of(is, p)).norm();
+            EXPECT_FALSE(std::isnan(distance));
+            largest = std::max(largest, distance);
+        }
+    }
+    return largest;
+}
+
+void expect_bound_holds(const Motion& motion, double bound) {
+    const Analysis analysis = analyse_in_full(motion, {bound});
+    const double error = largest_error(motion, recover(analysis.track, motion.time_s));
+    EXPECT_LE(error, bound);
+    EXPECT_NEAR(error, analysis.max_error_mm, 1e-12);
+    EXPECT_LE(analysis.rms_error_mm, analysis.max_error_mm);
+    EXPECT_GT(analysis.max_error_mm, 0.2 * bound) << "a bound that is not used is a bound on something else";
+    EXPECT_EQ(analysis.track.time_s.front(), motion.time_s.front());
+    EXPECT_EQ(analysis.track.time_s.back(), motion.time_s.back());
+}
+
+TEST(Analysis, HoldsTheBoundAtEverySampleOfRandomMotions) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        for (const int points : {1, 18, 38}) {
+            for (const double bound : {0.05, 0.5, 2.0}) {
+                SCOPED_TRACE(testing::Message() << seed << " " << points << " points, bound " << bound);
+                expect_bound_holds(smooth_motion(seed, 6, 120, points), bound);
+            }
+        }
+    }
+}
+
+TEST(Analysis, HoldsTheBoundOnNoiseAndOnUnevenTimes) {
+    Motion motion = smooth_motion(4, 4, 100, 8);
+    Dice dice(9);
+    for (Index i = 0; i < motion.positions.rows(); ++i) {
+        motion.time_s[static_cast<std::size_t>(i)] += 0.009 * dice.uniform();
+        for (Index d = 0; d < 24; ++d) motion.positions(i, d) += 0.1 * dice.normal();
+    }
+    for (const double bound : {0.5, 1.0}) expect_bound_holds(motion, bound);
+}
+
+TEST(Analysis, FewerViaPointsServeALargerBound) {
+    const Motion motion = smooth_motion(5, 20, 120, 18);
+    std::size_t before = motion.size();
+    for (const double bound : {0.01, 0.05, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+        const std::size_t count = analyse(motion, {bound}).time_s.size();
+        EXPECT_LT(count, before) << bound;
+        before = count;
+    }
+    EXPECT_LT(before, 20 * 12u) << "6 Hz motion needs no more than 12 via points a second";
+}
+
+TEST(Analysis, TheSplineOfViaPointsIsFoundAgainWithFewMore) {
+    ViaPointTrack track{{}, RowMatrix::Constant(20, kCoordinates, std::nan(""))};
+    Dice dice(6);
+    for (Index i = 0; i < 20; ++i) {
+        track.time_s.push_back(0.16 * static_cast<double>(i));
+        for (Index d = 0; d < 54; ++d) track.points(i, d) = 10 * dice.normal();
+    }
+    Motion motion;
+    for (int i = 0; i <= 19 * 16; ++i) motion.time_s.push_back(i * 0.01);
+    motion.positions = recover(track, motion.time_s);
+    EXPECT_LE(analyse(motion, {0.5}).time_s.size(), 30u) << "half as many again as the 20 that made it";
+}
+
+TEST(Analysis, AMotionAtRestIsItsTwoEnds) {
+    Motion motion = smooth_motion(7, 5, 100, 4);
+    motion.positions.rowwise() = motion.positions.row(0).eval();
+    const Analysis analysis = analyse_in_full(motion);
+    EXPECT_EQ(analysis.track.time_s, (std::vector<double>{0, motion.time_s.back()}));
+    EXPECT_LT(analysis.max_error_mm, 1e-12);
+}
+
+TEST(Analysis, WorkIsLinearInLength) {
+    const auto work = [](double seconds) {
+        return static_cast<double>(analyse_in_full(smooth_motion(8, seconds, 120, 18)).evaluations);
+    };
+    const double once = work(20), twice = work(40), fourfold = work(80);
+    EXPECT_LT(twice / once, 2.3);
+    EXPECT_LT(fourfold / twice, 2.2);
+}
+
+TEST(Analysis, PointsThatWereNeverMeasuredStayMissing) {
+    const Motion motion = smooth_motion(9, 3, 100, 5);
+    const ViaPointTrack track = analyse(motion);
+    EXPECT_TRUE(track.points.leftCols(15).allFinite());
+    EXPECT_TRUE(track.points.rightCols(kCoordinates - 15).array().isNaN().all());
+}
+
+TEST(Analysis, InABasisTheBoundIsStillMillimetresAtEachPoint) {
+    const Motion motion = smooth_motion(10, 8, 100, kPoints, 9);
+    const ConfigurationBasis full = principal_basis(motion.positions, 9);
+    for (const double bound : {0.1, 1.0}) {
+        const Analysis analysis = analyse_in_full(motion, full, {bound});
+        EXPECT_EQ(analysis.track.points.cols(), 9);
+        const double error = largest_error(motion, to_points(full, recover(analysis.track, motion.time_s)));
+        EXPECT_LE(error, bound);
+        EXPECT_NEAR(error, analysis.max_error_mm, 1e-9);
+        // the same motion in other coordinates: the same via points
+        EXPECT_EQ(analysis.track.time_s, analyse(motion, {bound}).time_s);
+    }
+    const ConfigurationBasis small = principal_basis(motion.positions, 8);
+    const double own = truncation_error_mm(small, motion.positions);
+    const Analysis analysis = analyse_in_full(motion, small, {own + 0.3});
+    EXPECT_LE(largest_error(motion, to_points(small, recover(analysis.track, motion.time_s))), own + 0.3);
+    EXPECT_THROW(analyse(motion, small, {own * 0.9}), InputError);
+}
+
+TEST(Analysis, TwiceGivesTheSame) {
+    const Motion motion = smooth_motion(11, 6, 120, 18);
+    const ViaPointTrack one = analyse(motion), other = analyse(motion);
+    EXPECT_EQ(one.time_s, other.time_s);
+    EXPECT_EQ(one.points.leftCols(54), other.points.leftCols(54));
+}
+
+TEST(Analysis, TwoSamplesAreTwoViaPoints) {
+    Motion motion = smooth_motion(12, 1, 50, 3);
+    motion.time_s.resize(2);
+    motion.positions = motion.positions.topRows(2).eval();
+    EXPECT_EQ(analyse(motion).time_s, motion.time_s);
+}
+
+TEST(Analysis, RubbishIsRefused) {
+    const Motion motion = smooth_motion(13, 1, 50, 3);
+    const double nan = std::nan("");
+    for (const double bound : {0.0, -1.0, nan, 1e9}) EXPECT_THROW(analyse(motion, {bound}), InputError);
+    const auto changed = [&](auto change) {
+        Motion other = motion;
+        change(other);
+        return other;
+    };
+    EXPECT_THROW(analyse(Motion{}), InputError);
+    EXPECT_THROW(analyse(changed([](Motion& m) { m.time_s[3] = m.time_s[2]; })), InputError);
+    EXPECT_THROW(analyse(changed([&](Motion& m) { m.time_s[3] = nan; })), InputError);
+    EXPECT_THROW(analyse(changed([&](Motion& m) { m.positions(5, 4) = nan; })), InputError);
+    EXPECT_THROW(analyse(changed([&](Motion& m) { m.positions(5, 4) = HUGE_VAL; })), InputError);
+    EXPECT_THROW(analyse(changed([&](Motion& m) { m.positions.setConstant(nan); })), InputError);
+}
+
+TEST(Analysis, HoldsTheBoundOnMeasuredSpeech) {
+    if (!std::filesystem::exists(kHaskinsCsv)) GTEST_SKIP() << kHaskinsCsv << " is not here";
+    const Motion motion = haskins_motion();
+    ASSERT_EQ(measured_points(motion.positions, "haskins").size(), 8u);
+    const double seconds = motion.time_s.back() - motion.time_s.front();
+    double before = static_cast<double>(motion.size());
+    for (const double bound : {0.25, 0.5, 1.0, 2.0}) {
+        expect_bound_holds(motion, bound);
+        const Analysis analysis = analyse_in_full(motion, {bound});
+        const double count = static_cast<double>(analysis.track.time_s.size());
+        std::printf("haskins_f01 within %.2f mm: %.1f via points a second, rms %.3f mm\n", bound,
+                    count / seconds, analysis.rms_error_mm);
+        EXPECT_LT(count, before);
+        before = count;
+    }
+    EXPECT_LT(before, static_cast<double>(motion.size()) / 4) << "within 2 mm, noise included";
+}
+
+}  // namespace
+}  // namespace viaface
