@@ -51,6 +51,25 @@ void WholeFile::commit() {
     committed_ = true;
 }
 
+WholeFolder::WholeFolder(fs::path final_path)
+    : final_(final_path.has_filename() ? final_path : final_path.parent_path()), partial_(beside(final_)) {
+    std::error_code failed;
+    const bool free = !fs::exists(final_) || (fs::is_directory(final_) && fs::is_empty(final_, failed));
+    if (!free || failed || !fs::create_directory(partial_, failed)) {
+        throw InputError("output", final_.string(), "a new or empty folder in one that can be written to");
+    }
+}
+
+WholeFolder::~WholeFolder() {
+    std::error_code ignored;
+    if (!committed_) fs::remove_all(partial_, ignored);
+}
+
+void WholeFolder::commit() {
+    fs::rename(partial_, final_);
+    committed_ = true;
+}
+
 void write_whole(const fs::path& path, std::span<const std::uint8_t> bytes) {
     WholeFile file(path);
     std::ofstream out(file.path(), std::ios::binary | std::ios::trunc);

@@ -28,6 +28,23 @@ class WholeFile {
     bool committed_ = false;
 };
 
+// The same for a folder. InputError("output", ...) when it cannot be made or the place holds anything
+// already.
+class WholeFolder {
+  public:
+    explicit WholeFolder(std::filesystem::path final_path);
+    ~WholeFolder();
+    WholeFolder(const WholeFolder&) = delete;
+    WholeFolder& operator=(const WholeFolder&) = delete;
+
+    const std::filesystem::path& path() const { return partial_; }
+    void commit();
+
+  private:
+    std::filesystem::path final_, partial_;
+    bool committed_ = false;
+};
+
 void write_whole(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_whole(const std::filesystem::path& path, std::string_view text);
 
