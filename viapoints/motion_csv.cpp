@@ -1,0 +1,290 @@
+#include "viapoints/motion_csv.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "base/whole_file.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFarthest_mm = 1e6;
+constexpr std::string_view kAxes = "xyz";
+
+std::string coordinate_name(int coordinate) {
+    return std::string(point_name(coordinate / 3)) + "_" + kAxes[static_cast<std::size_t>(coordinate % 3)] +
+           "_mm";
+}
+
+// The coordinate that "chin_x_mm", "chin_x" or "chin_x_cm" means: a point of the layout without its unit, or
+// in another one, would be lost among the other columns.
+std::optional<int> meant_coordinate(std::string_view name) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t at = name.rfind(std::string("_") + kAxes[axis]);
+        if (at == name.npos || (at + 2 < name.size() && name[at + 2] != '_')) continue;
+        if (const auto point = point_index(name.substr(0, at))) return 3 * *point + static_cast<int>(axis);
+    }
+    return std::nullopt;
+}
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+bool is_one_line(std::string_view comment) {
+    return std::none_of(comment.begin(), comment.end(), [](char c) { return is_control(c) && c != '\t'; });
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
+
+std::string_view cut(std::string_view& rest, char separator) {
+    const std::size_t at = std::min(rest.find(separator), rest.size());
+    const std::string_view piece = rest.substr(0, at);
+    rest.remove_prefix(std::min(at + 1, rest.size()));
+    return piece;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+    std::vector<std::string_view> cells;
+    for (bool more = true; more;) {
+        more = line.find(',') != line.npos;
+        cells.push_back(trimmed(cut(line, ',')));
+    }
+    return cells;
+}
+
+bool is_nan_word(std::string_view cell) {
+    return cell.empty() ||
+           (cell.size() == 3 && (cell[0] | 32) == 'n' && (cell[1] | 32) == 'a' && (cell[2] | 32) == 'n');
+}
+
+// Which place of the motion a column fills.
+struct Column {
+    std::string name;
+    int coordinate = -1;    // of the layout, 0 to 113; -1 for another column
+    std::size_t extra = 0;  // of Motion::extra when it is another column
+};
+
+class Parser {
+  public:
+    Parser(std::string_view text, std::string field) : rest_(text), field_(std::move(field)) {}
+
+    MotionCsv parse() {
+        while (!rest_.empty()) {
+            ++line_;
+            std::string_view line = cut(rest_, '\n');
+            if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+            const std::string_view content = trimmed(line);
+            if (content.empty()) continue;
+            if (content.front() == '#') {
+                comment(line.substr(line.find('#') + 1));
+            } else if (columns_.empty()) {
+                header(cells_of(line));
+            } else {
+                sample(cells_of(line));
+            }
+        }
+        if (result_.motion.time_s.empty())
+            fail("", columns_.empty() ? "no header" : "no sample", "a header and at least one sample");
+        return finished();
+    }
+
+  private:
+    [[noreturn]] void fail(std::string_view column, std::string_view value,
+                           const std::string& allowed) const {
+        std::string where = field_ + " line " + std::to_string(line_);
+        if (!column.empty()) where += ", column " + std::string(column);
+        throw InputError(where, std::string(value), allowed);
+    }
+
+    void comment(std::string_view text) {
+        if (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+        if (!is_one_line(text)) fail("", text, "a comment without control characters");
+        result_.comments.emplace_back(text);
+    }
+
+    void header(const std::vector<std::string_view>& names) {
+        if (names.front() != "time_s") fail("1", names.front(), "time_s as the first column");
+        if (names.size() > kMotionCsvColumns) {
+            fail("", std::to_string(names.size()) + " columns",
+                 "at most " + std::to_string(kMotionCsvColumns));
+        }
+        std::set<std::string_view> seen;
+        for (const std::string_view name : names) {
+            if (name.empty() || std::any_of(name.begin(), name.end(), is_control)) {
+                fail(std::to_string(seen.size() + 1), name, "a name without control characters");
+            }
+            if (!seen.insert(name).second) fail(name, name, "each column once");
+            columns_.push_back(column(name));
+        }
+        require_triples();
+        for (Column& added : columns_) {
+            if (added.coordinate >= 0 || &added == &columns_.front()) continue;
+            added.extra = result_.motion.extra.size();
+            result_.motion.extra.push_back({added.name, {}});
+        }
+    }
+
+    Column column(std::string_view name) const {
+        const auto meant = meant_coordinate(name);
+        if (meant && name != coordinate_name(*meant)) fail(name, name, coordinate_name(*meant));
+        return {std::string(name), meant.value_or(-1)};
+    }
+
+    void require_triples() const {
+        for (std::size_t i = 0; i < columns_.size(); ++i) {
+            const int first = columns_[i].coordinate;
+            if (first < 0) continue;
+            const bool whole = first % 3 == 0 && i + 2 < columns_.size() &&
+                               columns_[i + 1].coordinate == first + 1 &&
+                               columns_[i + 2].coordinate == first + 2;
+            if (!whole) {
+                fail(columns_[i].name, columns_[i].name, "x, y and z of a point side by side, in this order");
+            }
+            i += 2;
+        }
+    }
+
+    void sample(const std::vector<std::string_view>& cells) {
+        if (cells.size() != columns_.size()) {
+            fail("", std::to_string(cells.size()) + " cells",
+                 "as many as the header has: " + std::to_string(columns_.size()));
+        }
+        std::vector<double>& times = result_.motion.time_s;
+        if (times.size() == kMotionCsvSamples)
+            fail("", "more samples", "at most " + std::to_string(kMotionCsvSamples));
+        const double time = number(cells[0], columns_[0]);
+        if (std::isnan(time) || (!times.empty() && !(time > times.back()))) {
+            fail("time_s", cells[0], "a time above that of the sample before");
+        }
+        times.push_back(time);
+        positions_.resize(positions_.size() + kCoordinates, kNaN);
+        double* position = positions_.data() + positions_.size() - kCoordinates;
+        for (std::size_t i = 1; i < cells.size(); ++i) {
+            const double value = number(cells[i], columns_[i]);
+            if (columns_[i].coordinate < 0) {
+                result_.motion.extra[columns_[i].extra].values.push_back(value);
+            } else if (std::abs(value) > kFarthest_mm) {
+                fail(columns_[i].name, cells[i], "a coordinate within 1e6 mm");
+            } else {
+                position[columns_[i].coordinate] = value;
+            }
+        }
+    }
+
+    double number(std::string_view cell, const Column& column) const {
+        if (is_nan_word(cell)) return kNaN;
+        double value = 0;
+        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+        if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) {
+            fail(column.name, cell, "a finite number with a point, nan, or nothing");
+        }
+        return value;
+    }
+
+    MotionCsv finished() {
+        const auto samples = static_cast<Index>(result_.motion.time_s.size());
+        result_.motion.positions = Eigen::Map<const RowMatrix>(positions_.data(), samples, kCoordinates);
+        return std::move(result_);
+    }
+
+    std::string_view rest_;
+    std::string field_;
+    std::size_t line_ = 0;
+    std::vector<Column> columns_;
+    std::vector<double> positions_;  // [samples x 114]
+    MotionCsv result_;
+};
+
+void append_number(std::string& text, double value) {
+    if (std::isnan(value)) return;  // an empty cell
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+bool is_plain(std::string_view name) {
+    return !name.empty() && trimmed(name) == name && name.find(',') == name.npos &&
+           std::none_of(name.begin(), name.end(), is_control);
+}
+
+void require_writable(const Motion& motion, const std::vector<std::string>& comments) {
+    bool fits = motion.positions.rows() == static_cast<Index>(motion.size()) &&
+                motion.positions.cols() == kCoordinates;
+    std::set<std::string_view> seen{"time_s"};
+    for (const ExtraColumn& column : motion.extra) {
+        fits = fits && column.values.size() == motion.size();
+        if (!is_plain(column.name) || meant_coordinate(column.name) || !seen.insert(column.name).second) {
+            throw std::invalid_argument("an extra column's name cannot be written: '" + column.name + "'");
+        }
+    }
+    if (!fits) throw std::invalid_argument("a motion's times, positions and extra columns differ in length");
+    for (const std::string& comment : comments) {
+        if (!is_one_line(comment)) throw std::invalid_argument("a comment with control characters");
+    }
+}
+
+std::vector<int> written_points(const RowMatrix& positions) {
+    std::vector<int> points;
+    for (int point = 0; point < kPoints; ++point) {
+        if (!positions.middleCols<3>(3 * point).array().isNaN().all()) points.push_back(point);
+    }
+    return points;
+}
+
+}  // namespace
+
+MotionCsv parse_motion_csv(std::string_view text, const std::string& field) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.size() > kMotionCsvBytes) {
+        throw InputError(field, std::to_string(text.size()) + " bytes",
+                         "at most " + std::to_string(kMotionCsvBytes));
+    }
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    return Parser(text, field).parse();
+}
+
+MotionCsv read_motion_csv(const std::filesystem::path& path, const std::string& field) {
+    return parse_motion_csv(read_text(path, field, kMotionCsvBytes), field);
+}
+
+std::string format_motion_csv(const Motion& motion, const std::vector<std::string>& comments) {
+    require_writable(motion, comments);
+    std::string text;
+    for (const std::string& comment : comments) text += "# " + comment + "\n";
+    const std::vector<int> points = written_points(motion.positions);
+    text += "time_s";
+    for (const int point : points) {
+        for (int axis = 0; axis < 3; ++axis) text += "," + coordinate_name(3 * point + axis);
+    }
+    for (const ExtraColumn& column : motion.extra) text += "," + column.name;
+    text += "\n";
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        append_number(text, motion.time_s[i]);
+        for (const int point : points) {
+            for (int axis = 0; axis < 3; ++axis) {
+                append_number(text += ',', motion.positions(static_cast<Index>(i), 3 * point + axis));
+            }
+        }
+        for (const ExtraColumn& column : motion.extra) append_number(text += ',', column.values[i]);
+        text += "\n";
+    }
+    return text;
+}
+
+void write_motion_csv(const std::filesystem::path& path, const Motion& motion,
+                      const std::vector<std::string>& comments) {
+    write_whole(path, format_motion_csv(motion, comments));
+}
+
+}  // namespace viaface
