@@ -1,0 +1,261 @@
+#include "viapoints/codex_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "viapoints/spline.hpp"
+#include "viapoints/via_spacing.hpp"
+
+namespace viaface {
+namespace {
+
+// Kept a fifth wider than kMinViaGap, so that rounding in files and small changes of duration do not thin a
+// unit again.
+constexpr double kRecitedGap = 1.2 * kMinViaGap;
+constexpr double kNucleusStep = 0.001;  // s
+constexpr double kLastVia = 0.999;      // of the last pause: via times lie before the end
+
+void check(bool holds, const std::string& what) {
+    if (!holds) throw std::invalid_argument("recitation: " + what);
+}
+
+// Motion at a fixed rate, read between its samples by the cubic through four of them.
+class SampledMotion {
+  public:
+    explicit SampledMotion(const RecitationTake& take)
+        : rows_(take.components),
+          begin_(take.time_s.front()),
+          step_((take.time_s.back() - begin_) / static_cast<double>(take.time_s.size() - 1)) {
+        check(step_ <= 0.020 + 1e-9, "under 50 samples per second");
+        for (std::size_t i = 0; i < take.time_s.size(); ++i) {
+            check(std::abs(take.time_s[i] - (begin_ + static_cast<double>(i) * step_)) < 1e-3 * step_,
+                  "the rate is not fixed");
+        }
+    }
+
+    Eigen::RowVectorXd at(double time_s) const {
+        const double x = std::clamp((time_s - begin_) / step_, 0.0, static_cast<double>(rows_.rows() - 1));
+        const Eigen::Index i = std::min<Eigen::Index>(static_cast<Eigen::Index>(x), rows_.rows() - 2);
+        const double f = x - static_cast<double>(i);
+        const auto row = [&](Eigen::Index r) {
+            return rows_.row(std::clamp<Eigen::Index>(r, 0, rows_.rows() - 1));
+        };
+        return 0.5 * (2 * row(i) + f * (row(i + 1) - row(i - 1)) +
+                      f * f * (2 * row(i - 1) - 5 * row(i) + 4 * row(i + 1) - row(i + 2)) +
+                      f * f * f * (3 * row(i) - row(i - 1) - 3 * row(i + 1) + row(i + 2)));
+    }
+    double speed_at(double time_s) const {
+        return (at(time_s + step_ / 2) - at(time_s - step_ / 2)).norm() / step_;
+    }
+
+  private:
+    const RowMatrix& rows_;
+    double begin_, step_;
+};
+
+void check_take(const ConfigurationBasis& basis, const RecitationTake& take) {
+    const Eigen::Index k = basis.modes.cols();
+    check(take.time_s.size() >= 2 && std::ssize(take.time_s) == take.components.rows(),
+          "times and components disagree");
+    check(take.components.cols() == k && take.track.points.cols() == k, "components of another basis");
+    check(take.components.allFinite(), "components that are not finite");
+    const double begin = take.phones.begin_s(0), end = take.phones.end_s(take.phones.phones.size() - 1);
+    check(take.time_s.front() <= begin + 0.020 && take.time_s.back() >= end - 0.020,
+          "the motion does not cover the phones");
+}
+
+// What is least at the nucleus of a phone: how far the lips are apart, how far the lower lip lies below the
+// upper teeth's edge (the origin), or the speed. Read off the inner lips, or off the lip markers of a basis
+// without them.
+class Openness {
+  public:
+    Openness(const ConfigurationBasis& basis, const SampledMotion& motion) : motion_(motion) {
+        const auto height = [&](Point point) { return basis.modes.row(3 * point + 1); };
+        const bool inner = !height(kInnerTop).isZero(0) && !height(kInnerBottom).isZero(0);
+        lower_lip_ = height(inner ? kInnerBottom : kLipBottom);
+        lips_ = height(inner ? kInnerTop : kLipTop) - lower_lip_;
+        check(!lower_lip_.isZero(0) && !lips_.isZero(0), "a basis in which the lips do not move");
+    }
+
+    double at(ViaRank rank, double time_s) const {
+        switch (rank) {
+            case ViaRank::kBilabial:
+                return lips_.dot(motion_.at(time_s));
+            case ViaRank::kLabiodental:
+                return -lower_lip_.dot(motion_.at(time_s));
+            default:
+                return motion_.speed_at(time_s);
+        }
+    }
+
+  private:
+    const SampledMotion& motion_;
+    Eigen::RowVectorXd lower_lip_, lips_;  // per component
+};
+
+struct Span {
+    double begin, end;  // s
+};
+
+Span span_of(const PhoneSlot& slot, int sample_rate) {
+    return {static_cast<double>(slot.begin) / sample_rate, static_cast<double>(slot.end) / sample_rate};
+}
+
+// The earliest instant of least openness, so far inside the phone that neighbours' nuclei keep their
+// distance.
+double nucleus_time(const Openness& openness, PhoneId phone, Span span) {
+    const double length = span.end - span.begin;
+    const double margin = std::min(std::max(0.15 * length, kRecitedGap / 2), length / 2);
+    const int steps = std::max(1, static_cast<int>((length - 2 * margin) / kNucleusStep));
+    double best_time = 0, best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= steps; ++i) {
+        const double time = span.begin + margin + (length - 2 * margin) * i / steps;
+        const double here = openness.at(nucleus_rank(phone), time);
+        if (here < best) std::tie(best, best_time) = std::pair(here, time);
+    }
+    return best_time;
+}
+
+struct RankedTime {
+    double time;
+    ViaRank rank;
+};
+
+RankedTrack without_places(std::vector<RankedTime> times) {
+    std::stable_sort(times.begin(), times.end(), [](auto& a, auto& b) { return a.time < b.time; });
+    RankedTrack ranked{{{}, RowMatrix(std::ssize(times), 0)}, {}, std::vector<int>(times.size(), 0)};
+    for (const auto& [time, rank] : times) {
+        ranked.track.time_s.push_back(time);
+        ranked.rank.push_back(rank);
+    }
+    return ranked;
+}
+
+// The via times of the analysis, with every nucleus and both ends, well spaced.
+std::vector<double> refined_times(const std::vector<double>& analysed, const std::vector<double>& nuclei,
+                                  const std::vector<PhoneSlot>& slots, int sample_rate) {
+    const double begin = span_of(slots.front(), sample_rate).begin;
+    const Span last = span_of(slots.back(), sample_rate);
+    const double end = last.begin + kLastVia * (last.end - last.begin);
+    std::vector<RankedTime> times{{begin, ViaRank::kRest}, {end, ViaRank::kRest}};
+    for (const double time : analysed) {
+        if (time > begin && time < end) times.push_back({time, ViaRank::kPassing});
+    }
+    for (std::size_t i = 0; i < slots.size(); ++i)
+        times.push_back({nuclei[i], nucleus_rank(slots[i].centre)});
+    std::vector<double> spaced =
+        thinned(without_places(std::move(times)), kRecitedGap, kRecitedGap).track.time_s;
+    const std::vector<double> added = grading_times(spaced, kMaxRecitedGapRatio);
+    spaced.insert(spaced.end(), added.begin(), added.end());
+    std::sort(spaced.begin(), spaced.end());
+    return spaced;
+}
+
+ViaPointTrack read_off(const SampledMotion& motion, std::vector<double> times, Eigen::Index k) {
+    ViaPointTrack track{std::move(times), {}};
+    track.points.resize(std::ssize(track.time_s), k);
+    for (Eigen::Index i = 0; i < track.points.rows(); ++i) {
+        track.points.row(i) = motion.at(track.time_s[static_cast<std::size_t>(i)]);
+    }
+    return track;
+}
+
+RecitedPhone recited(const PhoneSlot& slot, Span span, double nucleus, const ViaPointTrack& track) {
+    RecitedPhone phone{slot.centre, slot.stress, true, span.end - span.begin};
+    const auto first = std::lower_bound(track.time_s.begin(), track.time_s.end(), span.begin);
+    const auto last = std::lower_bound(first, track.time_s.end(), span.end);
+    for (auto via = first; via != last; ++via) {
+        phone.via.push_back((*via - span.begin) / phone.duration_s);
+        if (std::abs(*via - nucleus) <
+            std::abs(track.time_s[static_cast<std::size_t>(first - track.time_s.begin() + phone.nucleus)] -
+                     nucleus)) {
+            phone.nucleus = static_cast<int>(via - first);
+        }
+    }
+    phone.points = track.points.middleRows(first - track.time_s.begin(), last - first);
+    return phone;
+}
+
+// How far every point lies from the motion on the spline through the refined via points.
+struct Misses {
+    std::vector<double> farthest_mm;  // per slot
+    double square_sum = 0;
+    std::size_t count = 0;
+};
+
+Misses misses_of(const ConfigurationBasis& basis, const RecitationTake& take,
+                 const std::vector<PhoneSlot>& slots, const ViaPointTrack& track) {
+    const MinimumJerkSpline spline(track, SplineEnd::at_rest(), SplineEnd::at_rest());
+    Misses misses{std::vector<double>(slots.size(), 0.0)};
+    std::size_t slot = 0;
+    for (std::size_t i = 0; i < take.time_s.size(); ++i) {
+        const double time = take.time_s[i];
+        while (slot + 1 < slots.size() && time >= span_of(slots[slot], take.phones.sample_rate).end) ++slot;
+        if (time < track.time_s.front() || time > track.time_s.back()) continue;
+        const Configuration difference =
+            basis.modes * (spline.at(time) - take.components.row(static_cast<Eigen::Index>(i)).transpose());
+        for (int p = 0; p < kPoints; ++p) {
+            misses.farthest_mm[slot] = std::max(misses.farthest_mm[slot], point_of(difference, p).norm());
+        }
+        misses.square_sum += difference.squaredNorm();
+        misses.count += kPoints;
+    }
+    return misses;
+}
+
+std::string printed(const char* format, auto... values) {
+    char text[160];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+std::string why_dropped(const RecitedPhone& phone, double farthest_mm, const CutLimits& limits) {
+    const double longest = phone.phone == kPause ? limits.longest_pause_s : limits.longest_s;
+    if (phone.duration_s < limits.shortest_s || phone.duration_s > longest) {
+        return printed("%.3f s long, %.3f to %.3f allowed", phone.duration_s, limits.shortest_s, longest);
+    }
+    if (phone.via.empty()) return "no via point lies in it";
+    if (farthest_mm > limits.farthest_mm) {
+        return printed("its via points miss the motion by %.2f mm, %.2f allowed", farthest_mm,
+                       limits.farthest_mm);
+    }
+    return {};
+}
+
+}  // namespace
+
+CutRecitation cut_recitation(const ConfigurationBasis& basis, const RecitationTake& take,
+                             const CutLimits& limits) {
+    const std::vector<PhoneSlot> slots = slots_of(take.phones);
+    check_take(basis, take);
+    const SampledMotion motion(take);
+    const Openness openness(basis, motion);
+    std::vector<double> nuclei;
+    for (const PhoneSlot& slot : slots) {
+        nuclei.push_back(nucleus_time(openness, slot.centre, span_of(slot, take.phones.sample_rate)));
+    }
+    const ViaPointTrack track = read_off(
+        motion, refined_times(take.track.time_s, nuclei, slots, take.phones.sample_rate), basis.modes.cols());
+    const Misses misses = misses_of(basis, take, slots, track);
+
+    CutRecitation cut;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const Span span = span_of(slots[i], take.phones.sample_rate);
+        RecitedPhone phone = recited(slots[i], span, nuclei[i], track);
+        const std::string reason = why_dropped(phone, misses.farthest_mm[i], limits);
+        phone.usable = reason.empty();
+        if (!phone.usable) {
+            const std::string name(phone_info(slots[i].centre).name);
+            cut.dropped.push_back({i, name + printed(" at %.3f s: ", span.begin) + reason});
+        }
+        cut.recitation.push_back(std::move(phone));
+    }
+    cut.farthest_mm = *std::max_element(misses.farthest_mm.begin(), misses.farthest_mm.end());
+    cut.rms_mm = misses.count == 0 ? 0 : std::sqrt(misses.square_sum / static_cast<double>(misses.count));
+    return cut;
+}
+
+}  // namespace viaface

@@ -1,0 +1,184 @@
+#include "viapoints/codex_select.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+namespace viaface {
+namespace {
+
+bool other_class(PhoneId a, PhoneId b) { return phone_info(a).viseme != phone_info(b).viseme; }
+
+// Units of one kind: [first, last) of codex.units.
+struct UnitRange {
+    std::int32_t first, last;
+};
+
+template <class Key>
+UnitRange units_of(const Codex& codex, const PhoneSlot& slot, const Key& key) {
+    const auto& units = codex.units;
+    const auto first =
+        std::partition_point(units.begin(), units.end(), [&](const auto& u) { return key(u) < key(slot); });
+    const auto last =
+        std::partition_point(first, units.end(), [&](const auto& u) { return key(u) == key(slot); });
+    return {static_cast<std::int32_t>(first - units.begin()),
+            static_cast<std::int32_t>(last - units.begin())};
+}
+
+// The cheapest `limit`, in the order of cost, then of units.
+void keep_cheapest(std::vector<Candidate>& candidates, std::size_t limit) {
+    const auto key = [](const Candidate& c) { return std::tie(c.cost, c.left, c.right); };
+    const auto cheaper = [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); };
+    const auto middle = candidates.begin() + static_cast<std::ptrdiff_t>(std::min(limit, candidates.size()));
+    std::partial_sort(candidates.begin(), middle, candidates.end(), cheaper);
+    candidates.erase(middle, candidates.end());
+}
+
+double distance_mm(const Eigen::Ref<const Eigen::RowVectorXd>& difference) {
+    return difference.norm() / std::sqrt(kPoints);
+}
+
+// What one slot asks for, and what each unit lacks of it.
+class Target {
+  public:
+    Target(const Codex& codex, const PhoneSlot& slot, int sample_rate, const SelectionCosts& costs)
+        : codex_(codex),
+          slot_(slot),
+          costs_(costs),
+          duration_s_(static_cast<double>(slot.end - slot.begin) / sample_rate),
+          same_centre_(units_of(codex, slot, [](const auto& of) { return of.centre; })) {}
+
+    std::vector<Candidate> exact() const {
+        const auto key = [](const auto& of) { return std::tie(of.centre, of.left, of.right); };
+        return matching(units_of(codex_, slot_, key), UnitLevel::kExact, true, true);
+    }
+    std::vector<Candidate> of_class() const { return matching(same_centre_, UnitLevel::kClass, true, true); }
+    std::vector<Candidate> halves() const;
+
+  private:
+    // Those whose contexts on the asked sides are at least of the class.
+    std::vector<Candidate> matching(UnitRange range, UnitLevel level, bool left, bool right) const {
+        std::vector<Candidate> found;
+        for (std::int32_t i = range.first; i < range.last; ++i) {
+            const TriphoneUnit& unit = codex_.units[static_cast<std::size_t>(i)];
+            if (left && other_class(unit.left, slot_.left)) continue;
+            if (right && other_class(unit.right, slot_.right)) continue;
+            double cost = own_cost(unit);
+            if (left) cost += side_cost(unit.left == slot_.left, unit.left2, slot_.left2);
+            if (right) cost += side_cost(unit.right == slot_.right, unit.right2, slot_.right2);
+            found.push_back({i, i, level, cost});
+        }
+        return found;
+    }
+    double own_cost(const TriphoneUnit& unit) const {
+        const double octaves = std::abs(std::log2(body_of(codex_, unit).duration_s / duration_s_));
+        return costs_.octave * octaves + (unit.stress != slot_.stress ? costs_.stress : 0);
+    }
+    double side_cost(bool same, PhoneId outer_have, PhoneId outer_want) const {
+        return (same ? 0 : costs_.same_class) +
+               (other_class(outer_have, outer_want) ? costs_.outer_context : 0);
+    }
+    double nucleus_distance(std::int32_t left, std::int32_t right) const {
+        const RecitedPhone &a = body_of(codex_, left), &b = body_of(codex_, right);
+        return distance_mm(a.points.row(a.nucleus) - b.points.row(b.nucleus));
+    }
+
+    const Codex& codex_;
+    const PhoneSlot& slot_;
+    const SelectionCosts& costs_;
+    double duration_s_;
+    UnitRange same_centre_;
+};
+
+std::vector<Candidate> Target::halves() const {
+    constexpr std::size_t kPerSide = 12;
+    std::vector<Candidate> lefts = matching(same_centre_, UnitLevel::kHalf, true, false);
+    std::vector<Candidate> rights = matching(same_centre_, UnitLevel::kHalf, false, true);
+    keep_cheapest(lefts, kPerSide);
+    keep_cheapest(rights, kPerSide);
+    std::vector<Candidate> pairs;
+    for (const Candidate& l : lefts) {
+        for (const Candidate& r : rights) {
+            const double cost = costs_.half + (l.cost + r.cost) / 2 + nucleus_distance(l.left, r.right);
+            pairs.push_back({l.left, r.right, UnitLevel::kHalf, cost});
+        }
+    }
+    return pairs;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_of(const Codex& codex, const PhoneSlot& slot, int sample_rate,
+                                     const SelectionCosts& costs) {
+    const Target target(codex, slot, sample_rate, costs);
+    std::vector<Candidate> found = target.exact();
+    if (found.empty()) found = target.of_class();
+    if (found.empty()) found = target.halves();
+    if (found.empty()) {
+        throw std::runtime_error("the codex has neither " +
+                                 triphone_name(slot.left, slot.centre, slot.right) +
+                                 " nor halves to make it of");
+    }
+    keep_cheapest(found, kMaxCandidates);
+    return found;
+}
+
+double join_cost(const Codex& codex, const Candidate& from, const Candidate& to,
+                 const SelectionCosts& costs) {
+    const Eigen::Index k = codex.rest.size();
+    const auto position = codex.begins.row(to.left).head(k) - codex.ends.row(from.right).head(k);
+    const auto velocity = codex.begins.row(to.left).tail(k) - codex.ends.row(from.right).tail(k);
+    return std::sqrt((position.squaredNorm() + costs.velocity_s * costs.velocity_s * velocity.squaredNorm()) /
+                     kPoints);
+}
+
+namespace {
+
+// The columns of the trellis so far: candidates, where the cheapest path to each came from, and what it cost.
+struct Trellis {
+    std::vector<std::vector<Candidate>> candidates;
+    std::vector<std::vector<std::size_t>> came_from;
+    std::vector<double> cost;  // of the paths to the newest candidates
+
+    void append(const Codex& codex, std::vector<Candidate> newest, const SelectionCosts& costs) {
+        std::vector<double> next;
+        std::vector<std::size_t> from;
+        for (const Candidate& candidate : newest) {
+            double cheapest = candidates.empty() ? 0 : std::numeric_limits<double>::infinity();
+            std::size_t best = 0;
+            for (std::size_t b = 0; b < cost.size(); ++b) {
+                const double through = cost[b] + join_cost(codex, candidates.back()[b], candidate, costs);
+                if (through < cheapest) std::tie(cheapest, best) = std::pair(through, b);
+            }
+            next.push_back(cheapest + candidate.cost);
+            from.push_back(best);
+        }
+        candidates.push_back(std::move(newest));
+        came_from.push_back(std::move(from));
+        cost = std::move(next);
+    }
+};
+
+}  // namespace
+
+Selection select_units(const Codex& codex, const PhoneSequence& phones, const SelectionCosts& costs) {
+    Selection selection{slots_of(phones), {}};
+    if (selection.slots.size() == 1) return selection;
+    Trellis trellis;
+    for (const PhoneSlot& slot : selection.slots) {
+        trellis.append(codex, candidates_of(codex, slot, phones.sample_rate, costs), costs);
+    }
+    const auto last = std::min_element(trellis.cost.begin(), trellis.cost.end());
+    selection.cost = *last;
+    selection.units.resize(selection.slots.size());
+    auto at = static_cast<std::size_t>(last - trellis.cost.begin());
+    for (std::size_t i = selection.slots.size(); i-- > 0; at = trellis.came_from[i][at]) {
+        selection.units[i] = trellis.candidates[i][at];
+        ++selection.phones_at_level[static_cast<std::size_t>(selection.units[i].level)];
+    }
+    return selection;
+}
+
+}  // namespace viaface
