@@ -14,10 +14,36 @@
 #include "synth/speech/repeatable_noise.hpp"
 
 extern "C" {
+#include <flite/cst_cg.h>
+
 cst_voice* register_cmu_us_rms(const char* folder);
 cst_voice* register_cmu_us_slt(const char* folder);
 cst_voice* register_cmu_us_awb(const char* folder);
 cst_voice* register_cmu_us_kal16(const char* folder);
+cst_wave* __real_mlsa_resynthesis(const cst_track*, const cst_track*, cst_cg_db*, cst_audio_streaming_info*,
+                                  int);
+}
+
+namespace {
+
+// What the vocoder of the statistical voices does in this thread's turn.
+struct Vocoder {
+    float pitch = 1;
+    bool mute = false;  // phones are timed without making their sound
+};
+thread_local Vocoder vocoder;
+
+}  // namespace
+
+// Flite's own f0_shift moves the mean of F0 and leaves its range (slt, awb) or does nothing (rms). So
+// programs are linked with --wrap=mlsa_resynthesis: here channel 0 of the track (F0 in Hz, 0 where unvoiced)
+// is scaled as a whole.
+extern "C" cst_wave* __wrap_mlsa_resynthesis(const cst_track* track, const cst_track* strengths,
+                                             cst_cg_db* voice, cst_audio_streaming_info* streaming,
+                                             int speed) {
+    if (vocoder.mute) return nullptr;  // Flite goes on with an empty wave
+    for (int i = 0; i < track->num_frames; ++i) track->frames[i][0] *= vocoder.pitch;
+    return __real_mlsa_resynthesis(track, strengths, voice, streaming, speed);
 }
 
 namespace viaface {
@@ -75,13 +101,16 @@ void run(cst_utterance* utterance, const char* hook, cst_uttfunc otherwise) {
     run(utterance, step ? val_uttfunc(step) : otherwise);
 }
 
+bool is_statistical(const cst_voice* voice) { return feat_present(voice->features, "cg_db"); }
+
 // Prosody is set on the utterance, never on the voice that others share.
 FliteUtterance new_utterance_of(cst_voice* voice, const Prosody& prosody, const char* text = nullptr) {
     FliteUtterance utterance(new_utterance());
     if (text) feat_set_string(utterance->features, "input_text", text);
     utt_init(utterance.get(), voice);
     feat_set_float(utterance->features, "duration_stretch", static_cast<float>(1 / prosody.rate));
-    feat_set_float(utterance->features, "f0_shift", static_cast<float>(prosody.pitch));
+    vocoder = {static_cast<float>(prosody.pitch), false};
+    if (!is_statistical(voice)) feat_set_float(utterance->features, "f0_shift", vocoder.pitch);
     return utterance;
 }
 
@@ -235,42 +264,54 @@ const cst_val* stretch_of_asking_state(const cst_item* token) {
 }
 
 FliteUtterance speak_stretched(cst_voice* voice, std::span<const RequestedPhone> phones,
-                               const Prosody& prosody, std::span<const double> factors) {
+                               const Prosody& prosody, std::span<const double> factors, bool mute) {
     FliteUtterance utterance = new_utterance_of(voice, prosody);
     lay_out(utterance.get(), phones);
     Stretches own;
     for (const double factor : factors) own.of_phone.emplace_back(float_val(static_cast<float>(factor)));
     stretches = &own;
+    vocoder.mute = mute;
     ff_register(utterance->ffunctions, "local_duration_stretch", stretch_of_asking_state);
     run(utterance.get(), "intonation_func", cart_intonation);
     run(utterance.get(), "wave_synth_func", nullptr);
-    stretches = nullptr;
     return utterance;
 }
 
-// Multiplies `factors` towards the durations asked for; the largest error before that, in ms.
-double approach(const cst_utterance* utterance, std::span<const RequestedPhone> phones,
-                std::span<double> factors) {
-    double worst = 0, begin = 0;
-    std::size_t i = 0;
-    for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment), ++i) {
-        const double duration = 1000 * (end_of(segment) - begin);
-        begin = end_of(segment);
-        if (phones[i].phone == kPause || !phones[i].duration) continue;
-        worst = std::max(worst, std::abs(duration - *phones[i].duration));
-        factors[i] *= *phones[i].duration / duration;
+double worst_error(std::span<const double> durations, std::span<const RequestedPhone> phones) {
+    double worst = 0;
+    for (std::size_t i = 0; i < phones.size(); ++i) {
+        if (phones[i].phone != kPause && phones[i].duration) {
+            worst = std::max(worst, std::abs(durations[i] - *phones[i].duration));
+        }
     }
     return worst;
 }
 
+std::vector<double> durations_of(const cst_utterance* utterance) {
+    std::vector<double> durations;  // ms
+    double begin = 0;
+    for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment)) {
+        durations.push_back(1000 * (end_of(segment) - begin));
+        begin = end_of(segment);
+    }
+    return durations;
+}
+
+// No state gets shorter than a frame, so that a stretch does less than it says: it is corrected until it
+// fits.
 FliteUtterance speak_by_stretching(cst_voice* voice, std::span<const RequestedPhone> phones,
                                    const Prosody& prosody) {
-    constexpr int kMostRounds = 12;
+    constexpr int kMostRounds = 60;
     constexpr double kCloseEnough = 0.5;  // ms
     std::vector<double> factors(phones.size(), 1);
     for (int round = 0; round < kMostRounds; ++round) {
-        FliteUtterance utterance = speak_stretched(voice, phones, prosody, factors);
-        if (approach(utterance.get(), phones, factors) <= kCloseEnough) return utterance;
+        const auto durations = durations_of(speak_stretched(voice, phones, prosody, factors, true).get());
+        if (worst_error(durations, phones) <= kCloseEnough) {
+            return speak_stretched(voice, phones, prosody, factors, false);
+        }
+        for (std::size_t i = 0; i < phones.size(); ++i) {
+            if (phones[i].duration) factors[i] *= *phones[i].duration / durations[i];
+        }
     }
     throw std::runtime_error("Flite did not meet the durations of the phones");
 }

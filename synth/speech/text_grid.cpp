@@ -62,6 +62,13 @@ class TokenReader {
         return value;
     }
 
+    double time(const char* what) {
+        constexpr double kLongest = 1e6;  // s, so that samples fit their counter
+        const double value = number(what);
+        if (std::abs(value) > kLongest) refuse(viaface::number(value), what);
+        return value;
+    }
+
     std::size_t count(const char* what) {
         const double value = number(what);
         if (!(value >= 0 && value <= 1e7) || value != std::floor(value)) refuse(std::to_string(value), what);
@@ -119,8 +126,8 @@ class TokenReader {
 
 LabelledInterval read_interval(TokenReader& reader, double not_before) {
     LabelledInterval interval;
-    interval.begin = reader.number("the beginning of an interval, s");
-    interval.end = reader.number("the end of an interval, s");
+    interval.begin = reader.time("the beginning of an interval, s");
+    interval.end = reader.time("the end of an interval, s");
     constexpr double kRounding = 1e-6;  // s, of other writers
     if (interval.begin < not_before - kRounding || interval.end < interval.begin) {
         reader.refuse(number(interval.begin) + " to " + number(interval.end), "intervals in order");
@@ -141,7 +148,7 @@ IntervalTier read_intervals(TokenReader& reader, std::string name, double begin)
 void read_over_points(TokenReader& reader) {
     const std::size_t count = reader.count("the number of points");
     for (std::size_t i = 0; i < count; ++i) {
-        reader.number("the time of a point, s");
+        reader.time("the time of a point, s");
         reader.string("the label of a point");
     }
 }
@@ -149,8 +156,8 @@ void read_over_points(TokenReader& reader) {
 void read_tier(TokenReader& reader, TextGrid& grid) {
     const std::string kind = reader.string("the class of a tier");
     std::string name = reader.string("the name of a tier");
-    const double begin = reader.number("the beginning of a tier, s");
-    reader.number("the end of a tier, s");
+    const double begin = reader.time("the beginning of a tier, s");
+    reader.time("the end of a tier, s");
     if (kind == "IntervalTier") {
         grid.tiers.push_back(read_intervals(reader, std::move(name), begin));
     } else if (kind == "TextTier") {
@@ -236,8 +243,8 @@ TextGrid read_text_grid(std::string_view text) {
     }
     constexpr const char* kTiers = "<exists> or <absent>";
     TextGrid grid;
-    grid.begin = reader.number("the beginning, s");
-    grid.end = reader.number("the end, s");
+    grid.begin = reader.time("the beginning, s");
+    grid.end = reader.time("the end, s");
     if (grid.end < grid.begin) reader.refuse(number(grid.end), "an end after the beginning");
     const std::string_view tiers = reader.flag(kTiers);
     if (tiers == "<absent>") return grid;

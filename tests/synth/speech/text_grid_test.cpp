@@ -118,6 +118,7 @@ TEST(TextGrid, WhatIsWrongIsNamedWithItsLine) {
     refusal(with("size = 2", "size = -1"));
     refusal(with("xmax = 1", "xmax = 1e999"));
     refusal(with("xmax = 1", "xmax = 1x"));
+    refusal(with("xmax = 1", "xmax = 1e300"));
     EXPECT_THROW(phones_of(read_text_grid(text), 16000), InputError);
     EXPECT_THROW(phones_of({0, 1, {}}, 16000), InputError);
 }
