@@ -4,12 +4,17 @@
 // how many are needed), and sound that ends before them is padded with silence. Add sound ahead of the frames
 // it belongs to: a stream sends a frame only once the sound up to its end and some 65 ms beyond is known.
 //
-// mp4 file: x264 veryfast at quality 20 with B-frames, one key frame at least every 2 s; AAC at 96 kbit/s, 48
-// kHz, mono; index first. mp4 stream: the same without B-frames and look-ahead, fragmented: the first
-// fragment holds one frame and its sound, later ones at most 100 ms. The 1024 samples of AAC's priming are
-// cut by an edit list in both. mkv: FFV1 plays wherever libav does (ffmpeg, VLC, mpv), not in browsers; the
-// container rounds stamps to 1 ms. Encoders run with one thread each and write neither versions nor times, so
-// that bytes repeat; they do not depend on how the sound is cut into pieces.
+// - mp4 file: x264 veryfast at quality 20 with B-frames, a key frame at least every 2 s; AAC at 96 kbit/s, 48
+//   kHz, mono; index first. AAC's first packet only primes the decoder: an edit list cuts its 1024 samples.
+// - mp4 stream: the same without B-frames and look-ahead, fragmented: the first fragment holds one frame and
+//   its sound, later ones at most 100 ms. Players do not heed the edit lists of fragmented files alike (libav
+//   plays the priming), so the priming packet is left out: every decoder starts at 0, and the first 21 ms of
+//   the sound fade in. Of AAC's last block a decoder may play up to 21 ms of silence beyond the end.
+// - mkv: FFV1 plays wherever libav does (ffmpeg, VLC, mpv), not in browsers; the container rounds stamps to 1
+// ms.
+//
+// Encoders run with one thread each and write neither versions nor times, so that bytes repeat; they do not
+// depend on how the sound is cut into pieces.
 #pragma once
 
 #include <cstdint>

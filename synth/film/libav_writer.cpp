@@ -64,13 +64,15 @@ using Options = std::vector<std::pair<const char*, std::string>>;
 // Every option must be known: one that is left over is an error, not ignored.
 template <class Open>
 void with_options(const Options& options, const char* what, Open open) {
-    AVDictionary* dictionary = nullptr;
-    for (const auto& [key, value] : options) av_dict_set(&dictionary, key, value.c_str(), 0);
-    const int code = open(&dictionary);
-    const bool left_over = av_dict_count(dictionary) > 0;
-    av_dict_free(&dictionary);
-    check(code, what);
-    if (left_over) throw std::runtime_error(std::string(what) + ": an option is unknown");
+    struct Dictionary {
+        AVDictionary* entries = nullptr;
+        ~Dictionary() { av_dict_free(&entries); }
+    } dictionary;
+    for (const auto& [key, value] : options) av_dict_set(&dictionary.entries, key, value.c_str(), 0);
+    check(open(&dictionary.entries), what);
+    if (av_dict_count(dictionary.entries) > 0) {
+        throw std::runtime_error(std::string(what) + ": an option is unknown");
+    }
 }
 
 AVRational stamp_base(FrameRate fps) { return {fps.denominator, fps.numerator}; }
@@ -310,13 +312,16 @@ class SeiRemover {
 
 std::string url(const fs::path& path) { return "file:" + path.string(); }
 
-// A container that writes to a file or a sink. Packets come in the order of their decoding.
+// A container that writes to a file or a sink, the latter from the first packet on. Packets come in the order
+// of their decoding.
 class Container {
   public:
-    Container(const char* format, const fs::path& path) : Container(format, url(path).c_str()) {
+    Container(const char* format, Options options, const fs::path& path)
+        : Container(format, std::move(options), url(path).c_str()) {
         check(avio_open(&context_->pb, context_->url, AVIO_FLAG_WRITE), "opening the film");
     }
-    Container(const char* format, FilmSink sink) : Container(format, "") {
+    Container(const char* format, Options options, FilmSink sink)
+        : Container(format, std::move(options), "") {
         sink_ = std::move(sink);
         constexpr int kBuffer = 1 << 16;
         auto* buffer = static_cast<std::uint8_t*>(av_malloc(kBuffer));
@@ -342,13 +347,8 @@ class Container {
         bases_.push_back(codec.time_base);
     }
 
-    void begin(const Options& options) {
-        with_options(options, "beginning the film",
-                     [&](AVDictionary** given) { return avformat_write_header(context_, given); });
-        check_sink();
-    }
-
     void write(AVPacket& packet, int stream) {
+        if (!begun_) begin();
         packet.stream_index = stream;
         av_packet_rescale_ts(&packet, bases_[stream], context_->streams[stream]->time_base);
         check_writing(av_write_frame(context_, &packet));
@@ -356,9 +356,6 @@ class Container {
 
     // Ends the fragment: what was written has left when this returns.
     void cut() {
-        if (!index_sent_)
-            check_writing(av_write_frame(context_, nullptr));  // the first flush sends the index alone
-        index_sent_ = true;
         check_writing(av_write_frame(context_, nullptr));
         avio_flush(context_->pb);
         check_sink();
@@ -372,10 +369,19 @@ class Container {
     }
 
   private:
-    Container(const char* format, const char* url) {
+    Container(const char* format, Options options, const char* url) : options_(std::move(options)) {
         check(avformat_alloc_output_context2(&context_, nullptr, format, url),
               "avformat_alloc_output_context2");
         context_->flags |= AVFMT_FLAG_BITEXACT;
+    }
+
+    void begin() {
+        begun_ = true;
+        with_options(options_, "beginning the film", [this](AVDictionary** options) {
+            const int code = avformat_write_header(context_, options);
+            check_sink();
+            return code;
+        });
     }
 
     static int write_to_sink(void* self, std::uint8_t* bytes, int size) {
@@ -409,9 +415,10 @@ class Container {
     }
 
     AVFormatContext* context_ = nullptr;
+    Options options_;
     FilmSink sink_;
     std::vector<AVRational> bases_;
-    bool index_sent_ = false, left_ = false;
+    bool begun_ = false, left_ = false;
     std::exception_ptr sink_error_;
 };
 
@@ -513,7 +520,7 @@ ContainerRecipe mp4_file() {
 
 ContainerRecipe mp4_stream(FrameRate fps) {
     const int frames = std::max(1, fps.numerator / (fps.denominator * kFragmentsPerSecond));
-    return {h264(true), "aac", kFilmSoundRate, {{"movflags", "frag_custom+delay_moov+default_base_moof"}},
+    return {h264(true), "aac", kFilmSoundRate, {{"movflags", "frag_custom+empty_moov+default_base_moof"}},
             frames,     true};
 }
 
@@ -525,13 +532,13 @@ class ContainerFilm : public FilmWriter {
                   const fs::path& output)
         : ContainerFilm(spec, recipe) {
         file_.emplace(output);
-        container_.emplace(format, file_->path());
-        begin(recipe);
+        container_.emplace(format, recipe.options, file_->path());
+        add_streams(recipe.frames_per_fragment);
     }
     ContainerFilm(const FilmSpec& spec, const ContainerRecipe& recipe, const char* format, FilmSink sink)
         : ContainerFilm(spec, recipe) {
-        container_.emplace(format, std::move(sink));
-        begin(recipe);
+        container_.emplace(format, recipe.options, std::move(sink));
+        add_streams(recipe.frames_per_fragment);
     }
 
     void add_frame(const FrameView& frame) override { picture_.add(frame, take_picture()); }
@@ -550,17 +557,17 @@ class ContainerFilm : public FilmWriter {
   private:
     ContainerFilm(const FilmSpec& spec, const ContainerRecipe& recipe)
         : spec_(spec),
+          drop_priming_(recipe.frames_per_fragment > 0),
           picture_(spec, recipe.picture, true),
           sound_(recipe.sound, spec.sample_rate, recipe.sound_rate, true) {
         if (recipe.remove_sei) cleaner_.emplace(picture_.codec());
     }
 
-    void begin(const ContainerRecipe& recipe) {
+    void add_streams(int frames_per_fragment) {
         container_->add_stream(picture_.codec());
         container_->add_stream(sound_.codec());
-        container_->begin(recipe.options);
         interleaver_.emplace(*container_, picture_.codec().time_base, sound_.codec().time_base,
-                             recipe.frames_per_fragment);
+                             frames_per_fragment);
     }
 
     PacketTaker take_picture() {
@@ -571,10 +578,14 @@ class ContainerFilm : public FilmWriter {
         };
     }
     PacketTaker take_sound() {
-        return [this](Handle<AVPacket> packet) { interleaver_->add(Interleaver::kSound, std::move(packet)); };
+        return [this](Handle<AVPacket> packet) {
+            if (drop_priming_ && packet->pts < 0) return;
+            interleaver_->add(Interleaver::kSound, std::move(packet));
+        };
     }
 
     FilmSpec spec_;
+    bool drop_priming_;
     std::optional<WholeFile> file_;
     PictureEncoder picture_;
     SoundEncoder sound_;
@@ -591,9 +602,8 @@ class PngFolder : public FilmWriter {
           folder_(output),
           picture_(spec, png(), false),
           sound_("pcm_s16le", spec.sample_rate, spec.sample_rate, false) {
-        sound_file_.emplace("wav", folder_.path() / "sound.wav");
+        sound_file_.emplace("wav", Options{}, folder_.path() / "sound.wav");
         sound_file_->add_stream(sound_.codec());
-        sound_file_->begin({});
     }
 
     void add_frame(const FrameView& frame) override { picture_.add(frame, take_picture()); }

@@ -240,7 +240,7 @@ class SoundTimeline {
 
   private:
     void open(const AVFrame& frame) {
-        if (frame.sample_rate <= 0) decoder_.refuse();
+        if (frame.sample_rate <= 0 || frame.sample_rate > kHighestRate) decoder_.refuse();
         rate_ = frame.sample_rate;
         AVChannelLayout mono = AV_CHANNEL_LAYOUT_MONO;
         AVChannelLayout layout = frame.ch_layout;
@@ -266,9 +266,8 @@ class SoundTimeline {
         const double here = static_cast<double>(end_) / rate_;
         const std::int64_t stamp = frame.best_effort_timestamp;
         const double asked = stamp == AV_NOPTS_VALUE ? here : seconds(stamp, decoder_.stream().time_base);
-        if (!(std::abs(asked) + seconds(frame.nb_samples, {1, rate_}) <= kLongestMediaSound)) {
-            decoder_.refuse("sound of at most 3 hours");
-        }
+        if (asked > kLongestMediaSound) decoder_.refuse("sound of at most 30 minutes");
+        if (!(std::abs(asked - here) <= kLongestMediaGap)) decoder_.refuse("sound without a gap of a minute");
         if (first_ || std::abs(asked - here) > kCoarse) end_ = std::llround(asked * rate_);
         first_ = false;
         remember_end(frame);
@@ -289,7 +288,8 @@ class SoundTimeline {
         heard_end_ = end_ + (known ? heard : frame.nb_samples);
     }
 
-    static constexpr double kCoarse = 0.002;  // s, what stamps may be wrong by
+    static constexpr int kHighestRate = 192000;  // Hz
+    static constexpr double kCoarse = 0.002;     // s, what stamps may be wrong by
 
     const StreamDecoder& decoder_;
     Handle<SwrContext> mixer_;

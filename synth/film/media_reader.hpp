@@ -18,8 +18,9 @@
 
 namespace viaface {
 
-inline constexpr int kLargestMediaSide = 8192;            // pixels
-inline constexpr double kLongestMediaSound = 3 * 3600.0;  // s
+inline constexpr int kLargestMediaSide = 8192;      // pixels
+inline constexpr double kLongestMediaSound = 1800;  // s
+inline constexpr double kLongestMediaGap = 60;      // s, without sound between two pieces of it
 
 // A file, or bytes that outlive whoever reads them.
 using MediaSource = std::variant<std::filesystem::path, std::span<const std::uint8_t>>;
