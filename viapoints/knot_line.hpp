@@ -44,8 +44,8 @@ class KnotLine {
     struct Knot {
         std::size_t sample;
         int before = kNone, after = kNone;
-        Eigen::RowVectorXd point, velocity = {}, acceleration = {};
-        double error = 0;       // largest distance within the segment after this knot, mm
+        Eigen::RowVectorXd point = {}, velocity = {}, acceleration = {};
+        double error = 0;  // largest distance in the segment from this knot to the next, both included, mm
         std::size_t worst = 0;  // the sample that has it
         bool alive = true;
     };
@@ -57,8 +57,9 @@ class KnotLine {
             return error != o.error ? error < o.error : sample > o.sample;
         }
     };
-    struct Window {  // knots in order, with the derivatives that they would have
+    struct Window {  // knots in order, with the points and derivatives that they would have
         std::vector<int> knots;
+        RowMatrix points;  // [knots x dimensions]
         MinimumJerkSystem::Derivatives solution;
     };
     struct SegmentError {
@@ -68,10 +69,17 @@ class KnotLine {
 
     Knot& knot(int id) { return knots_[static_cast<std::size_t>(id)]; }
     const Knot& knot(int id) const { return knots_[static_cast<std::size_t>(id)]; }
+    MinimumJerkSystem system(const Window& window) const;
     std::vector<int> all() const;
     std::vector<int> around(int id, bool without_it) const;
-    Window solved(std::vector<int> ids) const;
+    Window gathered(std::vector<int> ids) const;
+    void solve(Window& window) const;
+    Window unit_responses(const Window& window, Eigen::Index first, Eigen::Index count) const;
+    RowMatrix sampled(const Window& window, std::size_t segment) const;
+    RowMatrix sampled(const Window& window) const;
     SegmentError segment_error(const Window& window, std::size_t segment);
+    bool within(const Window& window, double limit_mm);
+    bool refit(Window& window, std::size_t middle, double limit_mm);
     void adopt(const Window& window);
     void insert_at(int segment_begin);
     double error_without(int id);
