@@ -1,0 +1,39 @@
+// Which rectangles of the picture must be drawn again: what does not move is not drawn twice. Triangles with
+// a changed corner mark the rows of tiles they covered and cover; neighbouring marked rows form a band.
+#pragma once
+
+#include <vector>
+
+#include "synth/picture/gl.hpp"
+
+namespace viaface {
+
+struct Extent {
+    float left, right, bottom, top;  // pixels
+};
+
+// All of what a triangle can touch, the reach of its edges' samples included.
+Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c);
+
+bool touches(const Extent& extent, const Rect& rect);
+
+class ChangedBands {
+  public:
+    ChangedBands(int width, int height);
+
+    void mark(const Extent& extent);
+    // Rectangles that hold everything marked, apart from each other; then nothing is marked.
+    std::vector<Rect> take();
+
+  private:
+    static constexpr int kTile = 16;  // pixels
+    struct Row {
+        int left, right;
+    };
+    Row empty() const { return {width_, 0}; }
+
+    int width_, height_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace viaface

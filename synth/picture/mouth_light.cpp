@@ -1,0 +1,86 @@
+#include "synth/picture/mouth_light.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace viaface {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int kStep = 2;  // columns from corner to corner of the polygon
+constexpr int kCorners = LipGrid::kColumns / kStep;
+using Opening = std::array<Vector3f, kCorners>;
+
+constexpr float kTouch = 3.0f;       // mm: the gap at which lips stop darkening each other, 1/e
+constexpr int kFirstDarkRow = 9;     // rows of the lips from here inwards darken
+constexpr float kDarkest = 0.75f;    // light lost at the inner contour of closed lips
+constexpr float kFromAround = 0.5f;  // share of the light that comes from everywhere
+
+float in_steps(float light) { return std::round(std::clamp(light, 0.0f, 1.0f) * 255) / 255; }
+
+Opening opening_of(const LipGrid& lips, const NodesF& places) {
+    Opening corners;
+    for (int i = 0; i < kCorners; ++i) {
+        corners[i] = places.row(lips.node(LipGrid::kRows - 1, i * kStep)).transpose();
+    }
+    return corners;
+}
+
+// Lambert's sum; towards the opening for points behind it.
+Vector3f flow(const Opening& corners, const Vector3f& point) {
+    Vector3f sum = Vector3f::Zero();
+    Vector3f from = (corners.back() - point).normalized();
+    for (const Vector3f& corner : corners) {
+        const Vector3f to = (corner - point).normalized();
+        const Vector3f across = to.cross(from);  // the contour runs clockwise seen from inside
+        const float sine = across.norm();
+        if (sine > 1e-6f) sum += across * (std::atan2(sine, from.dot(to)) / sine);
+        from = to;
+    }
+    return sum / (2 * std::numbers::pi_v<float>);
+}
+
+float light_at(const Opening& corners, const Vector3f& point, const Vector3f& normal) {
+    const Vector3f f = flow(corners, point);
+    if (f.z() < 0) return 1;  // in front of the lips
+    const float facing = std::max(0.0f, normal.dot(f));
+    return std::sqrt(kFromAround * f.norm() + (1 - kFromAround) * facing);
+}
+
+}  // namespace
+
+MouthLight::MouthLight(const Face& face) : lips_(face.lips) {
+    for (const FacePart& part : face.parts) {
+        has_lips_ |= part.material == Material::kLips;
+        if (part.material < Material::kMouth || part.material > Material::kTongue) continue;
+        for (int i = 0; i < part.nodes; ++i) inside_.push_back(part.first_node + i);
+    }
+}
+
+void MouthLight::compute(const NodesF& places, const NodesF& normals, std::vector<float>& light) const {
+    light.assign(places.rows(), 1.0f);
+    if (!has_lips_) return;
+    const Opening corners = opening_of(lips_, places);
+    for (const int node : inside_) {
+        light[node] = in_steps(light_at(corners, places.row(node), normals.row(node)));
+    }
+    light_lips(places, light);
+}
+
+void MouthLight::light_lips(const NodesF& places, std::vector<float>& light) const {
+    for (int column = 0; column < LipGrid::kColumns; ++column) {
+        const int inner = lips_.node(LipGrid::kRows - 1, column);
+        const int across = lips_.node(LipGrid::kRows - 1, LipGrid::kColumns - column);
+        const float gap = (places.row(inner) - places.row(across)).norm();
+        for (int row = kFirstDarkRow; row < LipGrid::kRows; ++row) {
+            const float depth = float(row - kFirstDarkRow) / (LipGrid::kRows - 1 - kFirstDarkRow);
+            light[lips_.node(row, column)] = in_steps(1 - kDarkest * depth * depth * std::exp(-gap / kTouch));
+        }
+    }
+}
+
+}  // namespace viaface

@@ -1,0 +1,35 @@
+// Pictures of one face from one view. Lights, camera and textures are set up once; then each pose of the face
+// is drawn, and only where it differs from the pose before: the picture is the same, byte for byte, as if
+// it had been drawn whole. A Portrait serves one thread at a time; several Portraits are independent.
+// Places are rounded to kGrain, so that what moves by less than a hair does not move.
+#pragma once
+
+#include <memory>
+
+#include "facemodel/face.hpp"
+#include "synth/film/frame.hpp"
+#include "synth/picture/view.hpp"
+
+namespace viaface {
+
+class Portrait {
+  public:
+    static constexpr double kGrain = 1.0 / 64;  // mm
+
+    enum class Redraw { kChanged, kAll };
+
+    // InputError for a view out of its limits; std::invalid_argument for a face whose arrays do not fit.
+    Portrait(const Face& face, const View& view);
+    ~Portrait();
+    Portrait(Portrait&&) noexcept;
+    Portrait& operator=(Portrait&&) noexcept;
+
+    // `posed` is [nodes of the face x 3], mm, head frame. The picture stays until the next call.
+    FrameView draw(const Nodes& posed, Redraw redraw = Redraw::kChanged);
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace viaface

@@ -1,0 +1,47 @@
+#include "synth/picture/posed_vertices.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include "synth/picture/portrait.hpp"
+
+namespace viaface {
+namespace {
+
+float grained(double mm) {
+    return static_cast<float>(std::nearbyint(mm / Portrait::kGrain) * Portrait::kGrain);
+}
+
+}  // namespace
+
+PosedVertices::PosedVertices(const Face& face, const Eigen::Matrix4d& clip_from_head, int width, int height)
+    : node_normals_(face),
+      mouth_light_(face),
+      clip_from_head_(clip_from_head.cast<float>()),
+      half_picture_(0.5f * width, 0.5f * height),
+      places_(face.rest.rows(), 3),
+      vertices_(face.rest.rows()),
+      kept_vertices_(face.rest.rows()),
+      pixels_(face.rest.rows()),
+      kept_pixels_(face.rest.rows()) {}
+
+void PosedVertices::pose(const Nodes& posed) {
+    if (posed.rows() != places_.rows()) {
+        throw std::invalid_argument("a pose of " + std::to_string(posed.rows()) + " nodes for a face of " +
+                                    std::to_string(places_.rows()));
+    }
+    if (!posed.allFinite()) throw std::invalid_argument("a pose with places that are not finite");
+    places_ = posed.unaryExpr(&grained);
+    node_normals_.compute(places_, normals_);
+    mouth_light_.compute(places_, normals_, light_);
+    for (Eigen::Index i = 0; i < places_.rows(); ++i) {
+        vertices_[i] = {{places_(i, 0), places_(i, 1), places_(i, 2)},
+                        {normals_(i, 0), normals_(i, 1), normals_(i, 2)},
+                        light_[i]};
+        const Eigen::Vector4f clip = clip_from_head_ * places_.row(i).transpose().homogeneous();
+        pixels_[i] = ((clip.head<2>() / clip.w()).array() + 1).matrix().cwiseProduct(half_picture_);
+    }
+}
+
+}  // namespace viaface

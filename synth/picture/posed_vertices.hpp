@@ -1,0 +1,46 @@
+// The vertices of a pose as the graphics library takes them, and where each falls in the picture.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "synth/picture/mouth_light.hpp"
+#include "synth/picture/surface_frame.hpp"
+
+namespace viaface {
+
+struct Vertex {
+    float place[3];   // mm, head frame
+    float normal[3];  // unit
+    float light;      // share of the outside light that gets here, 0 to 1
+    bool operator==(const Vertex&) const = default;
+};
+
+class PosedVertices {
+  public:
+    PosedVertices(const Face& face, const Eigen::Matrix4d& clip_from_head, int width, int height);
+
+    void pose(const Nodes& posed);
+    std::span<const Vertex> vertices() const { return vertices_; }
+    const Eigen::Vector2f& pixel(int node) const { return pixels_[node]; }  // from the lower left corner
+
+    // Exchanges the present pose with the one kept before.
+    void keep() {
+        kept_vertices_.swap(vertices_);
+        kept_pixels_.swap(pixels_);
+    }
+    bool changed(int node) const { return vertices_[node] != kept_vertices_[node]; }
+    const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }
+
+  private:
+    NodeNormals node_normals_;
+    MouthLight mouth_light_;
+    Eigen::Matrix4f clip_from_head_;
+    Eigen::Vector2f half_picture_;
+    NodesF places_, normals_;
+    std::vector<float> light_;
+    std::vector<Vertex> vertices_, kept_vertices_;
+    std::vector<Eigen::Vector2f> pixels_, kept_pixels_;
+};
+
+}  // namespace viaface

@@ -1,0 +1,28 @@
+// Normals and tangents of a face's nodes: sums over the adjoining triangles, weighted by area. Nodes at one
+// place (Face::weld) share a normal, so that no seam shows.
+#pragma once
+
+#include <vector>
+
+#include "facemodel/face.hpp"
+
+namespace viaface {
+
+using NodesF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;  // [nodes x 3], mm, head frame
+
+class NodeNormals {
+  public:
+    explicit NodeNormals(const Face& face);
+    void compute(const NodesF& places, NodesF& normals) const;  // unit length; (0, 0, 1) where undefined
+
+  private:
+    std::vector<Triangle> triangles_;  // of welded nodes
+    std::vector<int> weld_;
+};
+
+// [nodes x 4]: unit direction of rising u at rest, and in column 4 the sign that makes
+// cross(normal, tangent) * sign the direction of rising v, as glTF has it.
+using Tangents = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+Tangents rest_tangents(const Face& face, const NodesF& normals);
+
+}  // namespace viaface

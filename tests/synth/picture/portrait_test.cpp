@@ -1,0 +1,167 @@
+#include "synth/picture/portrait.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "simple_faces.hpp"
+
+namespace viaface {
+namespace {
+
+using testing::add_ball;
+using testing::add_square;
+using testing::kMiddleY;
+using testing::kMiddleZ;
+
+const View kSmallBlack{.width = 256, .height = 256, .background = Rgb{0, 0, 0}};
+constexpr double kMillimetresPerPixel =
+    282.0 / 256 * 1.0057;  // 17 degrees shown over 282 mm, seen from 11 below
+
+std::vector<std::uint8_t> bytes(const FrameView& view) {
+    std::vector<std::uint8_t> all;
+    for (int y = 0; y < view.height; ++y) {
+        const std::uint8_t* row = view.top_row + y * view.stride;
+        all.insert(all.end(), row, row + 4 * view.width);
+    }
+    return all;
+}
+
+// Share of a colour, summed over the picture, in pixels of the colour in the middle of it.
+double covered(const FrameView& view) {
+    const std::vector<std::uint8_t> all = bytes(view);
+    const int full = all[4 * (std::size_t(view.height / 2) * view.width + view.width / 2)];
+    double sum = 0;
+    for (std::size_t i = 0; i < all.size(); i += 4) sum += all[i];
+    return sum / full;
+}
+
+TEST(Portrait, BackgroundIsExact) {
+    Face face;
+    add_square(face, Material::kLash, 1e-3);
+    View view = kSmallBlack;
+    view.background = Rgb{10, 128, 255};
+    Portrait portrait(face, view);
+    const std::vector<std::uint8_t> all = bytes(portrait.draw(face.rest));
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < all.size(); i += 4) {
+        other += all[i] != 10 || all[i + 1] != 128 || all[i + 2] != 255 || all[i + 3] != 255;
+    }
+    EXPECT_LE(other, 1u);
+}
+
+// Four samples per pixel: an edge is placed to a quarter of a pixel at worst.
+TEST(Portrait, SquareCoversItsArea) {
+    for (const double side : {30.0, 77.7, 150.0}) {
+        Face face;
+        add_square(face, Material::kLash, side);
+        Portrait portrait(face, kSmallBlack);
+        const double pixels = side / kMillimetresPerPixel;
+        EXPECT_NEAR(covered(portrait.draw(face.rest)), pixels * pixels, pixels) << side;
+    }
+}
+
+TEST(Portrait, NearerIsInFront) {
+    Face face;
+    add_square(face, Material::kCloth, 100, 0);
+    add_square(face, Material::kTeeth, 50, 20);
+    Portrait portrait(face, kSmallBlack);
+    const auto middle = [](const FrameView& v) { return v.top_row[v.stride * (v.height / 2) + 2 * v.width]; };
+    const int in_front = middle(portrait.draw(face.rest));
+    Nodes posed = face.rest;
+    posed.bottomRows(4).col(2).array() -= 40;
+    const int behind = middle(portrait.draw(posed));
+    EXPECT_GT(in_front, behind + 60);
+}
+
+TEST(Portrait, SeenFromBehindShowsNothing) {
+    Face face;
+    add_square(face, Material::kSkin, 100);
+    View view = kSmallBlack;
+    view.yaw = 180;
+    Portrait portrait(face, view);
+    const std::vector<std::uint8_t> all = bytes(portrait.draw(face.rest));
+    for (std::size_t i = 0; i < all.size(); i += 4) ASSERT_EQ(all[i], 0);
+}
+
+Face two_balls() {
+    Face face;
+    add_ball(face, Material::kSkin, 80, {0, kMiddleY, kMiddleZ}, 16);
+    add_ball(face, Material::kTongue, 20, {0, kMiddleY - 30, kMiddleZ + 75}, 8);
+    add_ball(face, Material::kEye, 12, {30, kMiddleY + 30, kMiddleZ + 70}, 8);
+    add_ball(face, Material::kLash, 6, {30, kMiddleY + 45, kMiddleZ + 78}, 4);
+    return face;
+}
+
+// The small balls wander, now and then one stands still.
+Nodes wandering(const Face& face, int step) {
+    Nodes posed = face.rest;
+    const FacePart& tongue = face.parts[1];
+    posed.middleRows(tongue.first_node, tongue.nodes).col(1).array() += 25 * std::sin(0.9 * step);
+    posed.middleRows(tongue.first_node, tongue.nodes).col(0).array() += 0.3 * step;
+    if (step % 3 == 0) {
+        const FacePart& eye = face.parts[2];
+        posed.middleRows(eye.first_node, eye.nodes).col(0).array() -= 5.0 * step;
+    }
+    return posed;
+}
+
+TEST(Portrait, DrawingWhatChangedEqualsDrawingAll) {
+    const Face face = two_balls();
+    for (const View& view : {View{.width = 250, .height = 200, .yaw = 25}, View{.width = 128, .height = 300},
+                             View{.width = 200, .height = 200, .roll = 30, .background = Rgb{0, 177, 64}}}) {
+        Portrait changed(face, view), all(face, view);
+        for (int step = 0; step < 8; ++step) {
+            const Nodes posed = wandering(face, step);
+            ASSERT_EQ(bytes(changed.draw(posed)), bytes(all.draw(posed, Portrait::Redraw::kAll))) << step;
+        }
+    }
+}
+
+TEST(Portrait, LessThanAHairIsNoMove) {
+    const Face face = two_balls();
+    Portrait portrait(face, kSmallBlack);
+    const Nodes grained = (face.rest / Portrait::kGrain).array().round() * Portrait::kGrain;
+    const auto before = bytes(portrait.draw(grained));
+    const Nodes moved = grained.array() + 0.4 * Portrait::kGrain;
+    EXPECT_EQ(bytes(portrait.draw(moved, Portrait::Redraw::kAll)), before);
+}
+
+TEST(Portrait, SamePoseSameBytesInEveryThread) {
+    const Face face = two_balls();
+    std::vector<std::vector<std::uint8_t>> drawn(2);
+    const auto draw = [&](int which) {
+        Portrait portrait(face, View{.width = 200, .height = 200});
+        for (int step = 0; step < 4; ++step) drawn[which] = bytes(portrait.draw(wandering(face, step)));
+    };
+    std::thread first(draw, 0), second(draw, 1);
+    first.join();
+    second.join();
+    EXPECT_EQ(drawn[0], drawn[1]);
+    Portrait again(face, View{.width = 200, .height = 200});
+    EXPECT_EQ(bytes(again.draw(wandering(face, 3))), drawn[0]);
+}
+
+TEST(Portrait, TwoInOneThreadDoNotDisturbEachOther) {
+    const Face face = two_balls();
+    Portrait one(face, kSmallBlack), other(face, View{.width = 100, .height = 80});
+    const auto before = bytes(one.draw(face.rest));
+    other.draw(face.rest);
+    EXPECT_EQ(bytes(one.draw(face.rest, Portrait::Redraw::kAll)), before);
+}
+
+TEST(Portrait, WhatDoesNotFitIsRefused) {
+    Face face = two_balls();
+    Portrait portrait(face, kSmallBlack);
+    EXPECT_THROW(portrait.draw(face.rest.topRows(3)), std::invalid_argument);
+    Nodes lost = face.rest;
+    lost(5, 1) = std::nan("");
+    EXPECT_THROW(portrait.draw(lost), std::invalid_argument);
+    face.parts[0].triangles[0][2] = 1 << 20;
+    EXPECT_THROW(Portrait(face, kSmallBlack), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace viaface
