@@ -22,6 +22,9 @@ constexpr float kFromAround = 0.5f;  // share of the light that comes from every
 
 float in_steps(float light) { return std::round(std::clamp(light, 0.0f, 1.0f) * 255) / 255; }
 
+// The column of the other lip that meets this one.
+int opposite(int column) { return (LipGrid::kColumns * 3 / 2 - column) % LipGrid::kColumns; }
+
 Opening opening_of(const LipGrid& lips, const NodesF& places) {
     Opening corners;
     for (int i = 0; i < kCorners; ++i) {
@@ -30,7 +33,7 @@ Opening opening_of(const LipGrid& lips, const NodesF& places) {
     return corners;
 }
 
-// Lambert's sum; towards the opening for points behind it.
+// Lambert's sum; outwards, behind the opening and in front of it.
 Vector3f flow(const Opening& corners, const Vector3f& point) {
     Vector3f sum = Vector3f::Zero();
     Vector3f from = (corners.back() - point).normalized();
@@ -46,7 +49,7 @@ Vector3f flow(const Opening& corners, const Vector3f& point) {
 
 float light_at(const Opening& corners, const Vector3f& point, const Vector3f& normal) {
     const Vector3f f = flow(corners, point);
-    if (f.z() < 0) return 1;  // in front of the lips
+    if (f.dot(corners.front() + corners[kCorners / 2] - 2 * point) < 0) return 1;  // in front of the lips
     const float facing = std::max(0.0f, normal.dot(f));
     return std::sqrt(kFromAround * f.norm() + (1 - kFromAround) * facing);
 }
@@ -74,7 +77,7 @@ void MouthLight::compute(const NodesF& places, const NodesF& normals, std::vecto
 void MouthLight::light_lips(const NodesF& places, std::vector<float>& light) const {
     for (int column = 0; column < LipGrid::kColumns; ++column) {
         const int inner = lips_.node(LipGrid::kRows - 1, column);
-        const int across = lips_.node(LipGrid::kRows - 1, LipGrid::kColumns - column);
+        const int across = lips_.node(LipGrid::kRows - 1, opposite(column));
         const float gap = (places.row(inner) - places.row(across)).norm();
         for (int row = kFirstDarkRow; row < LipGrid::kRows; ++row) {
             const float depth = float(row - kFirstDarkRow) / (LipGrid::kRows - 1 - kFirstDarkRow);

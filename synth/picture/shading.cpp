@@ -86,9 +86,11 @@ Shading::Shading(const Face& face, const View& view, const Camera& camera) {
 }
 
 void Shading::draw_background() const {
+    glDepthMask(GL_TRUE);  // clearing obeys it
     glClear(GL_DEPTH_BUFFER_BIT);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
     background_program_->use();
     bind(kBaseUnit, background_);
     glDrawArrays(GL_TRIANGLES, 0, 3);

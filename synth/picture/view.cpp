@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 const Vector3d kPivot(0, 35, -106);              // mm: between the ears
 const Vector3d kTarget(0, 41, -106);             // mm: the middle of a square picture
 constexpr double kShown = 282;                   // mm over the shorter side, at the target
-constexpr double kCameraBelow = 11;              // mm below the target at kShown / (2 tan(8.45 degrees)) away
+constexpr double kCameraBelow = 0.0116;          // of its distance, below the target
 constexpr double kNearer = 300, kFarther = 300;  // mm around the target that can be seen
 
 struct NamedColour {
@@ -105,7 +105,7 @@ Camera camera_of(const View& view) {
     // A tall picture keeps the shoulders at its lower edge and has its room above the head.
     const double lift = kShown / 2 * (view.height / shorter - 1);
     const Vector3d target = kTarget + Vector3d(0, lift, 0);
-    const Vector3d place = target + Vector3d(0, -kCameraBelow, distance);
+    const Vector3d place = target + Vector3d(0, -kCameraBelow * distance, distance);
     const double near = std::max(distance - kNearer, distance / 20);
     return {
         turn_of(view),

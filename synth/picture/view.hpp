@@ -24,7 +24,7 @@ struct View {
     double tilt = 0;                // degrees, > 0 lifts the chin
     double roll = 0;                // degrees, > 0 counter-clockwise in the picture
     double field_of_view = 17;      // degrees over the shorter side; head and shoulders fill it at any value
-    std::optional<Rgb> background;  // none: a soft grey gradient
+    std::optional<Rgb> background = {};  // none: a soft grey gradient
 };
 
 // InputError naming "size", "yaw", "tilt", "roll" or "field_of_view".

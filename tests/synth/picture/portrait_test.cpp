@@ -17,8 +17,7 @@ using testing::kMiddleY;
 using testing::kMiddleZ;
 
 const View kSmallBlack{.width = 256, .height = 256, .background = Rgb{0, 0, 0}};
-constexpr double kMillimetresPerPixel =
-    282.0 / 256 * 1.0057;  // 17 degrees shown over 282 mm, seen from 11 below
+constexpr double kMillimetresPerPixel = 282.0 / 256;
 
 std::vector<std::uint8_t> bytes(const FrameView& view) {
     std::vector<std::uint8_t> all;
@@ -29,13 +28,15 @@ std::vector<std::uint8_t> bytes(const FrameView& view) {
     return all;
 }
 
-// Share of a colour, summed over the picture, in pixels of the colour in the middle of it.
-double covered(const FrameView& view) {
-    const std::vector<std::uint8_t> all = bytes(view);
-    const int full = all[4 * (std::size_t(view.height / 2) * view.width + view.width / 2)];
+// Pixels covered by the face: over white and over black a pixel differs by what shows through.
+double covered(const Face& face, View view) {
+    view.background = Rgb{0, 0, 0};
+    const std::vector<std::uint8_t> on_black = bytes(Portrait(face, view).draw(face.rest));
+    view.background = Rgb{255, 255, 255};
+    const std::vector<std::uint8_t> on_white = bytes(Portrait(face, view).draw(face.rest));
     double sum = 0;
-    for (std::size_t i = 0; i < all.size(); i += 4) sum += all[i];
-    return sum / full;
+    for (std::size_t i = 0; i < on_black.size(); i += 4) sum += 1 - (on_white[i] - on_black[i]) / 255.0;
+    return sum;
 }
 
 TEST(Portrait, BackgroundIsExact) {
@@ -56,11 +57,21 @@ TEST(Portrait, BackgroundIsExact) {
 TEST(Portrait, SquareCoversItsArea) {
     for (const double side : {30.0, 77.7, 150.0}) {
         Face face;
-        add_square(face, Material::kLash, side);
-        Portrait portrait(face, kSmallBlack);
+        add_square(face, Material::kTeeth, side);
         const double pixels = side / kMillimetresPerPixel;
-        EXPECT_NEAR(covered(portrait.draw(face.rest)), pixels * pixels, pixels) << side;
+        EXPECT_NEAR(covered(face, kSmallBlack), pixels * pixels, pixels) << side;
     }
+}
+
+// A ball's outline is a circle; the flat facets of 32 rings cost less than half a per cent.
+TEST(Portrait, BallCoversItsDisc) {
+    Face face;
+    const double radius = 60, distance = 282 / 2 / std::tan(8.5 * std::numbers::pi / 180);
+    add_ball(face, Material::kSkin, radius, {0, kMiddleY, kMiddleZ}, 32);
+    const double seen =
+        radius / std::sqrt(1 - radius * radius / (distance * distance)) / kMillimetresPerPixel;
+    const double disc = std::numbers::pi * seen * seen;
+    EXPECT_NEAR(covered(face, kSmallBlack), disc, 0.005 * disc + seen);
 }
 
 TEST(Portrait, NearerIsInFront) {

@@ -80,6 +80,8 @@ TEST(View, OtherShapesOfPictureShowTheHeadAtItsSize) {
 TEST(View, AWiderFieldComesNearerAndKeepsTheSize) {
     const Eigen::Vector3d ear(80, 41, -106);
     EXPECT_NEAR(pixel({.field_of_view = 40}, ear).x(), pixel({}, ear).x(), 0.01);
+    EXPECT_GT(pixel({.field_of_view = 40}, kNoseTip + Eigen::Vector3d(20, 0, 0)).x(),
+              pixel({}, kNoseTip + Eigen::Vector3d(20, 0, 0)).x() + 3);
 }
 
 }  // namespace
