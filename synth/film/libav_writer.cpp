@@ -541,11 +541,19 @@ class ContainerFilm : public FilmWriter {
         add_streams(recipe.frames_per_fragment);
     }
 
-    void add_frame(const FrameView& frame) override { picture_.add(frame, take_picture()); }
-    void add_sound(std::span<const std::int16_t> samples) override { sound_.add(samples, take_sound()); }
+    void add_frame(const FrameView& frame) override {
+        picture_.add(frame, take_picture());
+        encode_due_sound();
+    }
+    void add_sound(std::span<const std::int16_t> samples) override {
+        waiting_.insert(waiting_.end(), samples.begin(), samples.end());
+        encode_due_sound();
+    }
 
     void finish() override {
-        check_lengths(spec_, picture_.frames(), sound_.samples_in());
+        const auto waiting = static_cast<std::int64_t>(waiting_.size());
+        check_lengths(spec_, picture_.frames(), sound_.samples_in() + waiting);
+        encode_sound(waiting);
         picture_.end(take_picture());
         interleaver_->end(Interleaver::kPicture);
         sound_.end(samples_for(picture_.frames(), sound_.codec().sample_rate, spec_.fps), take_sound());
@@ -570,6 +578,21 @@ class ContainerFilm : public FilmWriter {
                              frames_per_fragment);
     }
 
+    // A sentence that arrives whole must not hold up its first frame: sound is encoded as the picture needs
+    // it.
+    void encode_due_sound() {
+        const std::int64_t ahead = spec_.sample_rate / kFragmentsPerSecond;
+        const std::int64_t due = samples_for(picture_.frames(), spec_.sample_rate, spec_.fps) + ahead;
+        encode_sound(std::min(due - sound_.samples_in(), static_cast<std::int64_t>(waiting_.size())));
+    }
+
+    void encode_sound(std::int64_t count) {
+        if (count <= 0) return;
+        const std::vector<std::int16_t> samples(waiting_.begin(), waiting_.begin() + count);
+        waiting_.erase(waiting_.begin(), waiting_.begin() + count);
+        sound_.add(samples, take_sound());
+    }
+
     PacketTaker take_picture() {
         return [this](Handle<AVPacket> packet) {
             packet->duration = 1;
@@ -589,6 +612,7 @@ class ContainerFilm : public FilmWriter {
     std::optional<WholeFile> file_;
     PictureEncoder picture_;
     SoundEncoder sound_;
+    std::deque<std::int16_t> waiting_;  // sound that no frame needs yet
     std::optional<SeiRemover> cleaner_;
     std::optional<Container> container_;
     std::optional<Interleaver> interleaver_;
