@@ -1,12 +1,16 @@
 // Via-point analysis: the few points of a recorded motion from which the minimum-jerk spline recovers all of
 // it within a stated bound [ATR98, "Extraction of via points"]. The bound is a 3-D distance in mm that holds
-// for each point at each sample. Via times are shared by all dimensions and lie on samples; ends are natural.
+// for each point at each sample. Via times are shared by all dimensions and lie on samples; via points need
+// not lie on what was measured. Ends are natural.
 //
-// Departure: inserting where the error is largest and solving the whole spline again is quadratic in length.
-// Here the spline is solved again eight via points to either side only (an insertion's effect falls to 0.431
-// per via point), then via points that the bound can spare are taken out, and the whole spline is solved and
-// checked at every sample at the end; what that check finds is inserted again. Work is linear in the number
-// of samples.
+// Departure: inserting where the error is largest and solving the whole spline again is quadratic in length,
+// and follows noise. Here
+// 1. the spline is solved again eight via points to either side only (an insertion's effect falls to 0.431
+//    per via point);
+// 2. each via point is then taken out that can be spared, its neighbours moved to a least-squares fit that is
+//    weighted more and more towards the worst samples [Lawson61];
+// 3. the whole spline is solved and checked at every sample, and what that check finds is inserted again.
+// Work is linear in the number of samples.
 #pragma once
 
 #include "viapoints/basis.hpp"

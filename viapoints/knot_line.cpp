@@ -149,7 +149,7 @@ bool KnotLine::within(const Window& window, double limit_mm) {
 }
 
 // Moves the points about `middle` to the least squares of the window's samples, weighted more and more
-// towards the worst ones [Lawson 1961], until all are within the limit; false when that does not come about.
+// towards the worst ones [Lawson61], until all are within the limit; false when that does not come about.
 bool KnotLine::refit(Window& window, std::size_t middle, double limit_mm) {
     const auto knots = static_cast<Index>(window.knots.size()), at = static_cast<Index>(middle);
     const Index first = std::max<Index>(0, at - kRefitReach + 1),
