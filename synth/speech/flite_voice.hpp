@@ -7,7 +7,7 @@
 // [Black00] and meets durations to the sample.
 //
 // Threads: Flite counts references without locks, so one lock lets one utterance at a time through the whole
-// of it (at 0.011 of real time, so that a core speaks for some 90 films at once). Any thread may use any
+// of it (at 0.01 to 0.02 of real time, so that one core speaks for some 50 films). Any thread may use any
 // voice.
 #pragma once
 
