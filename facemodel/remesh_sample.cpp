@@ -9,10 +9,10 @@
 namespace viaface {
 namespace {
 
-constexpr double kCell = 4.0;             // mm
+constexpr double kCell = 6.0;             // mm
 constexpr double kDartRadius = 0.72;      // of the wanted spacing
-constexpr double kCandidatesPerSample = 30;
-constexpr int kRelaxations = 12;
+constexpr double kCandidatesPerSample = 20;
+constexpr int kRelaxations = 6;
 
 // Points in space by cell.
 class Bins {

@@ -177,12 +177,56 @@ std::vector<Vector3d> spatial(const Curve& curve, const Nodes& scan) {
     return places;
 }
 
+// Lashes stand this far out of the lid's inner margin, between the eye's corners.
+std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_corner, const Chart& chart,
+                                const Nodes& scan) {
+    constexpr int kRoots = 13, kFine = 200;
+    constexpr double kOut = 1.6;  // mm
+    const Curve margin = resample_loop(hole, scan, kFine);
+    const std::vector<Vector2d> rim = places_of(margin, chart);
+    Vector2d middle = Vector2d::Zero();
+    for (const Vector2d& p : rim) middle += p / kFine;
+    const auto nearest = [&](int node) {
+        const Vector3d corner = scan.row(node);
+        std::size_t best = 0;
+        for (std::size_t k = 0; k < margin.size(); ++k) {
+            if ((margin[k].at(scan) - corner).norm() < (margin[best].at(scan) - corner).norm()) best = k;
+        }
+        return static_cast<int>(best);
+    };
+    const auto outwards = [&](int k) {
+        const Anchor from = margin[static_cast<std::size_t>(k)];
+        const Vector2d place = chart.uv(from), way = (place - middle) * 0.01;
+        Anchor to = from;
+        for (int step = 1; step < 200 && (to.at(scan) - from.at(scan)).norm() < kOut; ++step) {
+            to = chart.locate(place + step * way);
+        }
+        return to;
+    };
+    const int from = nearest(inner_corner), to = nearest(outer_corner);
+    std::array<Curve, 2> lids;
+    for (const int direction : {1, -1}) {
+        const int span = ((to - from) * direction % kFine + kFine) % kFine;
+        Curve roots;
+        for (int i = 0; i < kRoots; ++i) {
+            const int steps = static_cast<int>(std::lround(span * (0.14 + 0.84 * i / (kRoots - 1))));
+            roots.push_back(outwards(((from + direction * steps) % kFine + kFine) % kFine));
+        }
+        const auto middle_root = static_cast<std::size_t>(kRoots / 2);
+        const bool upper = roots[middle_root].at(scan).y() > (margin[static_cast<std::size_t>(from)].at(scan).y() +
+                                                              margin[static_cast<std::size_t>(to)].at(scan).y()) / 2;
+        lids[upper ? 0 : 1] = std::move(roots);
+    }
+    return lids;
+}
+
 // Wanted edge length over the face: fine at the lips, the lids and the nostrils, coarse far from them.
 Spacing face_spacing(std::vector<Vector3d> features, std::vector<Vector3d> nose) {
-    static constexpr double kFinest = 2.0, kGrowth = 0.14, kCoarsest = 8.5;
+    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 10, kEar = 4.5;
     return [features = std::move(features), nose = std::move(nose)](const Vector3d& place) {
         const double near = std::min(distance_to(features, place), distance_to(nose, place));
-        return std::min(kFinest + kGrowth * near, kCoarsest);
+        const bool ear = std::abs(place.x()) > 74 && place.y() > 5 && place.y() < 85;
+        return std::min(kFinest + kGrowth * near, ear ? kEar : kCoarsest);
     };
 }
 
@@ -222,6 +266,9 @@ DisplayAnchors remesh_head(const BlendHead& head) {
         const Curve lid = resample_loop(hole, scan, kLidNodes);
         append(mesh.front, lid);
         append(features, lid);
+        const int inner = head.landmarks()[x > 0 ? 42 : 39], outer = head.landmarks()[x > 0 ? 45 : 36];
+        const auto roots = lash_roots(hole, inner, outer, face, scan);
+        for (std::size_t k = 0; k < 2; ++k) mesh.lash_roots[(x > 0 ? 0 : 2) + k] = roots[k];
     }
     mesh.border_first = static_cast<int>(mesh.front.size());
     loops.push_back(counted(mesh.border_first, kColumns));
@@ -235,7 +282,7 @@ DisplayAnchors remesh_head(const BlendHead& head) {
     mesh.front_places = places_of(mesh.front, face);
     mesh.front_triangles = triangulate(mesh.front_places, nodes_at(mesh.front, scan), loops);
 
-    constexpr double kBackSpacing = 14;
+    constexpr double kBackSpacing = 18;
     const Loop& bottom_hole = back.holes().at(0);
     const Curve bottom = resample_loop(bottom_hole, scan, kBottomNodes);
     mesh.back = ring;

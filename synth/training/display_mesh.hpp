@@ -2,6 +2,7 @@
 // densely round the mouth and the eyes. [ATR98, "Face and lip mesh adaptation"]
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "facemodel/lips.hpp"
@@ -21,6 +22,8 @@ struct DisplayAnchors {
     std::vector<Triangle> front_triangles, back_triangles;
     std::vector<Vector2d> front_places, back_places;  // in the unit discs of the charts
     std::vector<Anchor> lip_middle, lip_inner;        // 40 each
+    // Where lashes grow, nose to temple: upper and lower lid of the left eye, then of the right.
+    std::array<std::vector<Anchor>, 4> lash_roots;
 };
 
 DisplayAnchors remesh_head(const BlendHead& head);

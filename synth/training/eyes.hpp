@@ -1,0 +1,24 @@
+// Procedural eyes and lashes. An eye is a sphere with a cornea's bulge; its texture place is
+// 0.5 + a / (2 pi) (cos b, sin b), with a the angle from straight ahead and b round the axis, so that the iris is a
+// disc in the middle. Lashes are strips that stand on the lids: u along the lid, v from the root (0) to the tip (1).
+#pragma once
+
+#include <array>
+
+#include "synth/training/part_mesh.hpp"
+
+namespace viaface {
+
+struct EyeBall {
+    static constexpr double kRadius = 15.3, kIrisRadius = 6.0, kCorneaRise = 1.2;  // mm
+    Eigen::Vector3d centre;
+};
+EyeBall eye_ball(double side);  // +1 the talker's left
+
+PartMesh eye(double side);
+
+// roots: the lid's upper or lower edge, nose to temple; the strip leaves the eyeball and curls up or down.
+Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper);
+PartMesh lashes(std::string name, const Nodes& strip, int roots, bool mirrored);
+
+}  // namespace viaface

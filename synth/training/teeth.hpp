@@ -1,0 +1,18 @@
+// Procedural teeth and gums: two arches of sixteen crowns, each a stack of rounded sections, set where the scan's
+// teeth stand. u runs round a crown, v from the neck (0) to the edge (1).
+#pragma once
+
+#include "facemodel/lips.hpp"
+#include "synth/training/part_mesh.hpp"
+
+namespace viaface {
+
+PartMesh upper_teeth();
+PartMesh lower_teeth();
+PartMesh upper_gums();
+PartMesh lower_gums();
+
+TeethFront upper_front();
+TeethFront lower_front();  // at rest
+
+}  // namespace viaface
