@@ -25,7 +25,9 @@ struct MeetingLine {
         for (int k = 0; k <= kColumns / 2; ++k) {
             const int column = (kRightCorner + k) % kColumns;
             const Vector3d middle =
-                (rows.row(at(kRows - 1, column)) + rows.row(at(kRows - 1, facing_column(column)))).transpose() / 2;
+                (rows.row(at(kRows - 1, column)) + rows.row(at(kRows - 1, facing_column(column))))
+                    .transpose() /
+                2;
             x[static_cast<std::size_t>(k)] = middle.x();
             y[static_cast<std::size_t>(k)] = middle.y();
         }
@@ -49,7 +51,8 @@ Nodes lip_rows(const LipContours& contours) {
         const Vector3d p0 = contours.outer.row(c), p1 = contours.middle.row(c), p2 = contours.inner.row(c);
         const double h0 = std::max((p1 - p0).norm(), 1e-6), h1 = std::max((p2 - p1).norm(), 1e-6);
         const Vector3d bend = 3 * ((p2 - p1) / h1 - (p1 - p0) / h0) / (h0 + h1);  // second derivative at p1
-        const auto piece = [&](const Vector3d& a, const Vector3d& b, double h, double t, bool rising) -> Vector3d {
+        const auto piece = [&](const Vector3d& a, const Vector3d& b, double h, double t,
+                               bool rising) -> Vector3d {
             const double s = rising ? t : 1 - t;
             return (1 - t) * a + t * b + h * h / 6 * (s * s * s - s) * bend;
         };
@@ -80,8 +83,8 @@ void keep_off_teeth(Nodes& rows, const TeethFront& teeth) {
     for (int c = 0; c < kColumns; ++c) {
         for (int r = kFirstRow; r < kRows; ++r) {
             auto node = rows.row(at(r, c));
-            const double into = teeth.z(node.x()) - node.z();               // behind the front, mm
-            const double over = teeth.side * (node.y() - teeth.edge_y);    // past the edge, mm
+            const double into = teeth.z(node.x()) - node.z();            // behind the front, mm
+            const double over = teeth.side * (node.y() - teeth.edge_y);  // past the edge, mm
             if (into <= 0 || over <= 0) continue;
             if (into < over) {
                 node.z() += into;

@@ -1,6 +1,6 @@
 // The lip mesh from three contours of 40 nodes, and what stops lips: each other and the teeth.
-// [ATR98, "Face and lip mesh adaptation"]: a cubic spline through the triplet of control points across each column.
-// Departure: contact. The report's lips pass through each other.
+// [ATR98, "Face and lip mesh adaptation"]: a cubic spline through the triplet of control points across each
+// column. Departure: contact. The report's lips pass through each other.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace viaface {
 
-// [40 x 3], mm, head frame; column 0 at the middle of the upper lip, then towards the talker's left and round.
+// [40 x 3], mm, head frame; column 0 at the middle of the upper lip, then towards the talker's left and
+// round.
 using Contour = Eigen::Matrix<double, LipGrid::kColumns, 3, Eigen::RowMajor>;
 
 struct LipContours {
@@ -21,9 +22,7 @@ struct LipContours {
 inline constexpr int kLeftCorner = LipGrid::kColumns / 4, kRightCorner = 3 * LipGrid::kColumns / 4;
 
 // The column of the other lip that meets this one; corners meet themselves.
-constexpr int facing_column(int column) {
-    return (3 * LipGrid::kColumns / 2 - column) % LipGrid::kColumns;
-}
+constexpr int facing_column(int column) { return (3 * LipGrid::kColumns / 2 - column) % LipGrid::kColumns; }
 constexpr bool upper_lip(int column) { return column < kLeftCorner || column > kRightCorner; }
 
 // Natural cubic splines across, parametrised by chord, at equal steps on either side of the middle. [600 x 3]

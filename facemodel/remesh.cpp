@@ -44,7 +44,8 @@ void place_on_circle(const Loop& loop, const Nodes& scan, std::vector<Vector2d>&
     for (std::size_t k = 1; k < loop.size(); ++k) {
         arc[k] = arc[k - 1] + (scan.row(loop[k]) - scan.row(loop[k - 1])).norm();
     }
-    const auto top = std::max_element(loop.begin(), loop.end(), [&](int a, int b) { return scan(a, 1) < scan(b, 1); });
+    const auto top =
+        std::max_element(loop.begin(), loop.end(), [&](int a, int b) { return scan(a, 1) < scan(b, 1); });
     const double start = arc[static_cast<std::size_t>(top - loop.begin())];
     for (std::size_t k = 0; k < loop.size(); ++k) {
         const double angle = std::numbers::pi * (0.5 + 2 * (arc[k] - start) / whole);
@@ -105,7 +106,8 @@ void Chart::flatten(const Nodes& scan) {
     std::vector<Triangle> closed = triangles_;
     for (const Loop& hole : holes_) {
         Vector3d hub = Vector3d::Zero();
-        for (const int node : hole) hub += places[static_cast<std::size_t>(node)] / static_cast<double>(hole.size());
+        for (const int node : hole)
+            hub += places[static_cast<std::size_t>(node)] / static_cast<double>(hole.size());
         const int index = static_cast<int>(places.size());
         for (std::size_t k = 0; k < hole.size(); ++k) {
             closed.push_back({hole[(k + 1) % hole.size()], hole[k], index});

@@ -1,10 +1,10 @@
-// A mesh of our own topology on the surface of a scan: anchors on its triangles, a flat chart of it, samples at
-// a wanted spacing and a triangulation that keeps feature contours. Because a node is an anchor, every posed scan
-// of the same topology gives the mesh in that posture. [ATR98, "Face and lip mesh adaptation"]
-// Departure: the report adapts one generic mesh to each scan by field morphing; scans that share a topology need
-// no morphing, only anchors.
-// The chart is Floater's: each inner node is the mean-value weighted mean of its neighbours, the outer loop lies
-// on the unit circle, holes are closed by a hub. All weights are positive, so no triangle flips.
+// A mesh of our own topology on the surface of a scan: anchors on its triangles, a flat chart of it, samples
+// at a wanted spacing and a triangulation that keeps feature contours. Because a node is an anchor, every
+// posed scan of the same topology gives the mesh in that posture. [ATR98, "Face and lip mesh adaptation"]
+// Departure: the report adapts one generic mesh to each scan by field morphing; scans that share a topology
+// need no morphing, only anchors. The chart is Floater's: each inner node is the mean-value weighted mean of
+// its neighbours, the outer loop lies on the unit circle, holes are closed by a hub. All weights are
+// positive, so no triangle flips.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +35,8 @@ std::vector<Loop> boundary_loops(const std::vector<Triangle>& triangles);
 
 class Chart {
   public:
-    // scan: [nodes x 3], mm; triangles: a connected piece of it. The loop with the most nodes becomes the circle.
+    // scan: [nodes x 3], mm; triangles: a connected piece of it. The loop with the most nodes becomes the
+    // circle.
     Chart(const Nodes& scan, std::vector<Triangle> triangles);
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -73,14 +74,14 @@ class Dice {
 using Spacing = std::function<double(const Vector3d&)>;  // place in mm -> wanted edge length in mm
 using Keep = std::function<bool(const Anchor&)>;
 
-// Samples on the triangles of a chart at about the wanted spacing of each other and of the fixed anchors: darts,
-// then relaxed towards the centres of their cells.
+// Samples on the triangles of a chart at about the wanted spacing of each other and of the fixed anchors:
+// darts, then relaxed towards the centres of their cells.
 std::vector<Anchor> sample_surface(const Nodes& scan, const Chart& chart, const std::vector<Anchor>& fixed,
                                    const Spacing& spacing, const Keep& keep, std::uint64_t seed);
 
-// Triangles over places of a chart. Each loop lists places in order; the first bounds the domain from outside,
-// the rest are holes; all their edges are kept. Inner edges are then flipped until no pair of angles opposite an
-// edge exceeds a straight angle in space.
+// Triangles over places of a chart. Each loop lists places in order; the first bounds the domain from
+// outside, the rest are holes; all their edges are kept. Inner edges are then flipped until no pair of angles
+// opposite an edge exceeds a straight angle in space.
 std::vector<Triangle> triangulate(const std::vector<Vector2d>& places, const Nodes& nodes,
                                   const std::vector<Loop>& loops);
 

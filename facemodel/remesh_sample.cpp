@@ -9,8 +9,8 @@
 namespace viaface {
 namespace {
 
-constexpr double kCell = 6.0;             // mm
-constexpr double kDartRadius = 0.72;      // of the wanted spacing
+constexpr double kCell = 6.0;         // mm
+constexpr double kDartRadius = 0.72;  // of the wanted spacing
 constexpr double kCandidatesPerSample = 20;
 constexpr int kRelaxations = 6;
 
@@ -52,8 +52,8 @@ double area_of(const Triangle& t, const Nodes& scan) {
     return 0.5 * (b - a).cross(c - a).norm();
 }
 
-std::vector<Candidate> scatter(const Nodes& scan, const Chart& chart, const Spacing& spacing, const Keep& keep,
-                               Dice& dice) {
+std::vector<Candidate> scatter(const Nodes& scan, const Chart& chart, const Spacing& spacing,
+                               const Keep& keep, Dice& dice) {
     std::vector<double> running;
     double sum = 0;
     for (const Triangle& t : chart.triangles()) {
@@ -95,7 +95,8 @@ std::vector<int> throw_darts(const std::vector<Candidate>& candidates, const std
 }
 
 // One step of Lloyd's: each sample moves to the candidate nearest the centre of those that are nearest to it.
-void relax(const std::vector<Candidate>& candidates, const std::vector<Vector3d>& fixed, std::vector<int>& chosen) {
+void relax(const std::vector<Candidate>& candidates, const std::vector<Vector3d>& fixed,
+           std::vector<int>& chosen) {
     Bins bins;
     std::vector<Vector3d> places = fixed;
     for (const int i : chosen) places.push_back(candidates[static_cast<std::size_t>(i)].place);
@@ -105,7 +106,8 @@ void relax(const std::vector<Candidate>& candidates, const std::vector<Vector3d>
         int nearest = -1;
         double least = 1e300;
         bins.near(candidates[i].place, 1.5 * candidates[i].spacing, [&](int other) {
-            const double distance = (places[static_cast<std::size_t>(other)] - candidates[i].place).squaredNorm();
+            const double distance =
+                (places[static_cast<std::size_t>(other)] - candidates[i].place).squaredNorm();
             if (distance < least) {
                 least = distance;
                 nearest = other;

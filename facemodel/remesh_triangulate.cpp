@@ -64,7 +64,8 @@ class Triangulation {
             }
             if (!flipped) break;
         }
-        if (!sides_.contains(edge_of(a, b))) throw std::runtime_error("a contour crosses itself in the chart");
+        if (!sides_.contains(edge_of(a, b)))
+            throw std::runtime_error("a contour crosses itself in the chart");
     }
 
   private:
@@ -111,7 +112,8 @@ class Triangulation {
     bool crosses(const Edge& edge, int a, int b) const {
         if (edge.first == a || edge.second == a || edge.first == b || edge.second == b) return false;
         return turn(at(a), at(b), at(edge.first)) * turn(at(a), at(b), at(edge.second)) < 0 &&
-               turn(at(edge.first), at(edge.second), at(a)) * turn(at(edge.first), at(edge.second), at(b)) < 0;
+               turn(at(edge.first), at(edge.second), at(a)) * turn(at(edge.first), at(edge.second), at(b)) <
+                   0;
     }
 
     void set(int index, int a, int b, int c) {

@@ -20,18 +20,16 @@ struct Ring {
     double half_width, above, below, z, fall, follow;
 };
 constexpr std::array<Ring, MouthLining::kRings> kLiningRings = {{{0, 0, 0, 0, 0, 1},
-                                                          {0, 0, 0, 0, 0, 0.97},
-                                                          {0, 0, 0, 0, 0, 0.85},
-                                                          {24.5, 8, 10, 2.6, 0.020, 0.5},
-                                                          {28, 15, 14, 1.6, 0.020, 0.15},
-                                                          {32, 21, 17, -22, 0.004, 0.03},
-                                                          {33, 25, 19, -45, 0, 0},
-                                                          {27, 24, 19, -68, 0, 0},
-                                                          {14, 18, 15, -84, 0, 0}}};
+                                                                 {0, 0, 0, 0, 0, 0.97},
+                                                                 {0, 0, 0, 0, 0, 0.85},
+                                                                 {24.5, 8, 10, 2.6, 0.020, 0.5},
+                                                                 {28, 15, 14, 1.6, 0.020, 0.15},
+                                                                 {32, 21, 17, -22, 0.004, 0.03},
+                                                                 {33, 25, 19, -45, 0, 0},
+                                                                 {27, 24, 19, -68, 0, 0},
+                                                                 {14, 18, 15, -84, 0, 0}}};
 
-double angle_of(int column) {
-    return std::numbers::pi * (0.5 - 2.0 * column / MouthLining::kColumns);
-}
+double angle_of(int column) { return std::numbers::pi * (0.5 - 2.0 * column / MouthLining::kColumns); }
 
 Vector3d on_ring(const Ring& ring, int column) {
     const double x = ring.half_width * std::cos(angle_of(column)), s = std::sin(angle_of(column));
@@ -115,7 +113,8 @@ Nodes TongueSweep::rest() {
         const TongueSection section = tongue_section(t);
         const double middle = (section.top + section.bottom) / 2, half = (section.top - section.bottom) / 2;
         for (int k = 0; k < kAround; ++k) {
-            const double angle = 2 * std::numbers::pi * k / kAround;  // from the top towards the talker's left
+            const double angle =
+                2 * std::numbers::pi * k / kAround;  // from the top towards the talker's left
             const double x = std::sin(angle), y = std::cos(angle);
             const double groove = y > 0 ? 1.2 * std::exp(-std::pow(x / 0.3, 2)) * smooth(t / 0.3) : 0;
             nodes.row(s * kAround + k) << section.half_width * std::copysign(std::pow(std::abs(x), 0.8), x),

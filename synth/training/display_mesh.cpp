@@ -49,7 +49,8 @@ Curve resample_loop(const Loop& loop, const Nodes& scan, int count) {
     Curve places;
     for (int i = 0; i < count; ++i) {
         const double wanted = arc.back() * (i + 0.5) / count;
-        const auto k = static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), wanted) - arc.begin());
+        const auto k =
+            static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), wanted) - arc.begin());
         places.push_back(between(chain[k - 1], chain[k], (wanted - arc[k - 1]) / (arc[k] - arc[k - 1])));
     }
     return places;
@@ -69,7 +70,8 @@ std::vector<Vector2d> spline_through(const std::vector<Vector2d>& places, const 
         system(k, k - 1) = step(k - 1);
         system(k, k) = 2 * (step(k - 1) + step(k));
         system(k, k + 1) = step(k);
-        right.row(k) = 6 * ((place(k + 1) - place(k)) / step(k) - (place(k) - place(k - 1)) / step(k - 1)).transpose();
+        right.row(k) =
+            6 * ((place(k + 1) - place(k)) / step(k) - (place(k) - place(k - 1)) / step(k - 1)).transpose();
     }
     const Eigen::MatrixX2d bend = system.partialPivLu().solve(right);
     std::vector<Vector2d> fine;
@@ -77,9 +79,9 @@ std::vector<Vector2d> spline_through(const std::vector<Vector2d>& places, const 
         const double h = step(k);
         for (int i = 0; i < kFine; ++i) {
             const double t = static_cast<double>(i) / kFine, s = 1 - t;
-            fine.push_back(s * place(k) + t * place(k + 1) +
-                           h * h / 6 *
-                               ((s * s * s - s) * bend.row(k) + (t * t * t - t) * bend.row(k + 1)).transpose());
+            fine.push_back(
+                s * place(k) + t * place(k + 1) +
+                h * h / 6 * ((s * s * s - s) * bend.row(k) + (t * t * t - t) * bend.row(k + 1)).transpose());
         }
     }
     fine.push_back(places.back());
@@ -100,15 +102,16 @@ Curve resample_curve(const std::vector<Vector2d>& fine, const Chart& chart, cons
     Curve curve;
     for (int i = 0; i < count; ++i) {
         const double wanted = arc.back() * i / count;
-        const auto k = static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), wanted) - arc.begin());
+        const auto k =
+            static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), wanted) - arc.begin());
         const double t = (wanted - arc[k - 1]) / (arc[k] - arc[k - 1]);
         curve.push_back(chart.locate((1 - t) * fine[k - 1] + t * fine[k]));
     }
     return curve;
 }
 
-// A quarter of contour after quarter: each from one of the four cardinal landmarks to the next. The upper and the
-// lower lip each have a spline of their own, for the corners are sharp.
+// A quarter of contour after quarter: each from one of the four cardinal landmarks to the next. The upper and
+// the lower lip each have a spline of their own, for the corners are sharp.
 Curve lip_contour(const std::vector<int>& ring, int left, int bottom, int right, const Chart& chart,
                   const Nodes& scan) {
     const int count = static_cast<int>(ring.size());
@@ -125,13 +128,15 @@ Curve lip_contour(const std::vector<int>& ring, int left, int bottom, int right,
     const auto upper = spline(right, count + left), lower = spline(left, right);
     const auto piece = [&](const std::vector<Vector2d>& fine, int from, int to, int spans) {
         const auto per = (fine.size() - 1) / static_cast<std::size_t>(spans);
-        return std::vector<Vector2d>(fine.begin() + static_cast<std::ptrdiff_t>(per * static_cast<std::size_t>(from)),
-                                     fine.begin() + static_cast<std::ptrdiff_t>(per * static_cast<std::size_t>(to)) + 1);
+        return std::vector<Vector2d>(
+            fine.begin() + static_cast<std::ptrdiff_t>(per * static_cast<std::size_t>(from)),
+            fine.begin() + static_cast<std::ptrdiff_t>(per * static_cast<std::size_t>(to)) + 1);
     };
     const int above = count + left - right, below = right - left;
     Curve contour;
-    for (const auto& quarter : {piece(upper, count - right, above, above), piece(lower, 0, bottom - left, below),
-                                piece(lower, bottom - left, below, below), piece(upper, 0, count - right, above)}) {
+    for (const auto& quarter :
+         {piece(upper, count - right, above, above), piece(lower, 0, bottom - left, below),
+          piece(lower, bottom - left, below, below), piece(upper, 0, count - right, above)}) {
         const Curve places = resample_curve(quarter, chart, scan, kColumns / 4);
         contour.insert(contour.end(), places.begin(), places.end());
     }
@@ -213,8 +218,10 @@ std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_co
             roots.push_back(outwards(((from + direction * steps) % kFine + kFine) % kFine));
         }
         const auto middle_root = static_cast<std::size_t>(kRoots / 2);
-        const bool upper = roots[middle_root].at(scan).y() > (margin[static_cast<std::size_t>(from)].at(scan).y() +
-                                                              margin[static_cast<std::size_t>(to)].at(scan).y()) / 2;
+        const bool upper =
+            roots[middle_root].at(scan).y() > (margin[static_cast<std::size_t>(from)].at(scan).y() +
+                                               margin[static_cast<std::size_t>(to)].at(scan).y()) /
+                                                  2;
         lids[upper ? 0 : 1] = std::move(roots);
     }
     return lids;
@@ -275,10 +282,12 @@ DisplayAnchors remesh_head(const BlendHead& head) {
     append(mesh.front, border);
 
     std::vector<Vector3d> nose;
-    for (const int k : {31, 32, 33, 34, 35}) nose.push_back(scan.row(head.landmarks()[static_cast<std::size_t>(k)]));
+    for (const int k : {31, 32, 33, 34, 35})
+        nose.push_back(scan.row(head.landmarks()[static_cast<std::size_t>(k)]));
     const auto border_polygon = places_of(border, face);
     const Keep on_face = [&](const Anchor& anchor) { return !inside(border_polygon, face.uv(anchor)); };
-    append(mesh.front, sample_surface(scan, face, mesh.front, face_spacing(spatial(features, scan), nose), on_face, kSeed));
+    append(mesh.front, sample_surface(scan, face, mesh.front, face_spacing(spatial(features, scan), nose),
+                                      on_face, kSeed));
     mesh.front_places = places_of(mesh.front, face);
     mesh.front_triangles = triangulate(mesh.front_places, nodes_at(mesh.front, scan), loops);
 
@@ -288,9 +297,10 @@ DisplayAnchors remesh_head(const BlendHead& head) {
     mesh.back = ring;
     append(mesh.back, bottom);
     const auto bottom_polygon = places_of(bottom, back);
-    append(mesh.back, sample_surface(
-                          scan, back, mesh.back, [](const Vector3d&) { return kBackSpacing; },
-                          [&](const Anchor& anchor) { return !inside(bottom_polygon, back.uv(anchor)); }, kSeed + 1));
+    append(mesh.back,
+           sample_surface(
+               scan, back, mesh.back, [](const Vector3d&) { return kBackSpacing; },
+               [&](const Anchor& anchor) { return !inside(bottom_polygon, back.uv(anchor)); }, kSeed + 1));
     mesh.back_places = places_of(mesh.back, back);
     mesh.back_triangles = triangulate(mesh.back_places, nodes_at(mesh.back, scan),
                                       {counted(0, kRingNodes), counted(kRingNodes, kBottomNodes)});
@@ -300,7 +310,8 @@ DisplayAnchors remesh_head(const BlendHead& head) {
 LipContours lip_contours(const DisplayAnchors& anchors, const Nodes& scan) {
     LipContours contours;
     for (int c = 0; c < kColumns; ++c) {
-        contours.outer.row(c) = anchors.front[static_cast<std::size_t>(anchors.border_first + c)].at(scan).transpose();
+        contours.outer.row(c) =
+            anchors.front[static_cast<std::size_t>(anchors.border_first + c)].at(scan).transpose();
         contours.middle.row(c) = anchors.lip_middle[static_cast<std::size_t>(c)].at(scan).transpose();
         contours.inner.row(c) = anchors.lip_inner[static_cast<std::size_t>(c)].at(scan).transpose();
     }

@@ -25,13 +25,19 @@ EyeBall eye_ball(double side) { return {Vector3d(side * 31.2, 71.0, -26.7)}; }
 
 PartMesh eye(double side) {
     constexpr int kNodes = kEyeRings * kEyeAround + 1;
-    PartMesh part{side > 0 ? "eye_left" : "eye_right", Material::kEye, Drive::kFixed, Nodes(kNodes, 3), Uvs(kNodes, 2), {}};
+    PartMesh part{side > 0 ? "eye_left" : "eye_right",
+                  Material::kEye,
+                  Drive::kFixed,
+                  Nodes(kNodes, 3),
+                  Uvs(kNodes, 2),
+                  {}};
     const Vector3d centre = eye_ball(side).centre;
     for (int r = 0; r < kEyeRings; ++r) {
         const double angle = kLastAngle * std::pow((r + 1.0) / kEyeRings, 1.25);
         for (int k = 0; k < kEyeAround; ++k) {
             const double round = 2 * std::numbers::pi * k / kEyeAround;
-            const Vector3d way(std::sin(angle) * std::cos(round), std::sin(angle) * std::sin(round), std::cos(angle));
+            const Vector3d way(std::sin(angle) * std::cos(round), std::sin(angle) * std::sin(round),
+                               std::cos(angle));
             part.nodes.row(r * kEyeAround + k) = (centre + radius_at(angle) * way).transpose();
             const double reach = angle / (2 * std::numbers::pi);
             part.uvs.row(r * kEyeAround + k) << static_cast<float>(0.5 + reach * std::cos(round)),
@@ -62,7 +68,8 @@ Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper) {
         const double reach = length * (0.55 + 0.45 * std::sin(std::numbers::pi * (0.15 + 0.75 * along)));
         for (int r = 0; r < kLashRows; ++r) {
             const double t = static_cast<double>(r) / (kLashRows - 1);
-            const Vector3d way = out * (t * (1 - 0.25 * t)) + up * (curl * t * t) + Vector3d(0, upper ? -0.15 * t : 0, 0);
+            const Vector3d way =
+                out * (t * (1 - 0.25 * t)) + up * (curl * t * t) + Vector3d(0, upper ? -0.15 * t : 0, 0);
             strip.row(r * count + i) = (root + reach * way).transpose();
         }
     }

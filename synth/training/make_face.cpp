@@ -32,7 +32,8 @@ Uvs uvs_in(const std::vector<Vector2d>& places, double left, double width) {
     constexpr double kMargin = 0.49;
     Uvs uvs(static_cast<Eigen::Index>(places.size()), 2);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        uvs.row(static_cast<Eigen::Index>(i)) << static_cast<float>(left + width * (0.5 + kMargin * places[i].x())),
+        uvs.row(static_cast<Eigen::Index>(i))
+            << static_cast<float>(left + width * (0.5 + kMargin * places[i].x())),
             static_cast<float>(0.5 + kMargin * places[i].y());
     }
     return uvs;
@@ -47,9 +48,9 @@ Uvs lip_uvs() {
     return uvs;
 }
 
-// u runs once round the lips; the triangles of the last column close on column 0 at u = 1, which glTF's repeating
-// textures take for 0 only if the nodes differ. The renderer and other viewers see a mirrored sliver instead, so
-// u goes up one side and down the other.
+// u runs once round the lips; the triangles of the last column close on column 0 at u = 1, which glTF's
+// repeating textures take for 0 only if the nodes differ. The renderer and other viewers see a mirrored
+// sliver instead, so u goes up one side and down the other.
 void fold_round(Uvs& uvs, int columns, int rows) {
     for (int i = 0; i < columns * rows; ++i) {
         const double u = static_cast<double>(i % columns) / columns;
@@ -59,7 +60,7 @@ void fold_round(Uvs& uvs, int columns, int rows) {
 
 struct LashPlace {
     const char* name;
-    int eye;     // 0 left, 1 right
+    int eye;  // 0 left, 1 right
     bool upper;
 };
 constexpr LashPlace kLashes[] = {{"lashes_upper_left", 0, true},
@@ -90,8 +91,8 @@ void add_part(Face& face, const PartMesh& mesh) {
 }
 
 // Every part at the posture of `scan`, in the face's order.
-std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anchors, const Configuration& rest,
-                               const Nodes& lining, const Nodes& scan) {
+std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anchors,
+                               const Configuration& rest, const Nodes& lining, const Nodes& scan) {
     const JawMotion jaw = jaw_of(rest, head.points(scan));
     const LipContours contours = lip_contours(anchors, scan);
     std::vector<PartMesh> parts;
@@ -99,7 +100,8 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
                      uvs_in(anchors.front_places, 0, 0.7), anchors.front_triangles});
     parts.push_back({"head_back", Material::kSkin, Drive::kModes, nodes_at(anchors.back, scan),
                      uvs_in(anchors.back_places, 0.7, 0.3), anchors.back_triangles});
-    parts.push_back({"lips", Material::kLips, Drive::kLips, lip_rows(contours), lip_uvs(), lip_triangles(LipGrid{})});
+    parts.push_back(
+        {"lips", Material::kLips, Drive::kLips, lip_rows(contours), lip_uvs(), lip_triangles(LipGrid{})});
     fold_round(parts.back().uvs, LipGrid::kColumns, LipGrid::kRows);
     parts.push_back(mouth_lining(MouthLining::posed(lining, contours.inner, jaw)));
     fold_round(parts.back().uvs, MouthLining::kColumns, MouthLining::kRings);
@@ -116,14 +118,17 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
     parts.push_back(eye(-1));
     for (const LashPlace& place : kLashes) {
         const Nodes strip = posed_lashes(anchors, place, scan);
-        const auto& roots = anchors.lash_roots[static_cast<std::size_t>(2 * place.eye + (place.upper ? 0 : 1))];
-        parts.push_back(lashes(place.name, strip, static_cast<int>(roots.size()), place.eye == 1));
+        const auto& roots =
+            anchors.lash_roots[static_cast<std::size_t>(2 * place.eye + (place.upper ? 0 : 1))];
+        parts.push_back(
+            lashes(place.name, strip, static_cast<int>(roots.size()), (place.eye == 1) == place.upper));
     }
     return parts;
 }
 
 const FacePart& part_named(const Face& face, std::string_view name) {
-    return *std::find_if(face.parts.begin(), face.parts.end(), [&](const FacePart& p) { return p.name == name; });
+    return *std::find_if(face.parts.begin(), face.parts.end(),
+                         [&](const FacePart& p) { return p.name == name; });
 }
 
 void weld_parts(Face& face, const DisplayAnchors& anchors) {
@@ -137,12 +142,16 @@ void weld_parts(Face& face, const DisplayAnchors& anchors) {
     }
 }
 
-Eigen::VectorXd flat(const Nodes& nodes) { return Eigen::Map<const Eigen::VectorXd>(nodes.data(), nodes.size()); }
+Eigen::VectorXd flat(const Nodes& nodes) {
+    return Eigen::Map<const Eigen::VectorXd>(nodes.data(), nodes.size());
+}
 
 }  // namespace
 
 HeadToFace::HeadToFace(const BlendHead& head)
-    : head_(head), anchors_(remesh_head(head)), rest_points_(head.points(head.neutral().nodes)),
+    : head_(head),
+      anchors_(remesh_head(head)),
+      rest_points_(head.points(head.neutral().nodes)),
       lining_(MouthLining::rest(lip_contours(anchors_, head.neutral().nodes).inner)) {}
 
 Nodes HeadToFace::posed(const Nodes& scan) const {

@@ -1,5 +1,5 @@
-// Makes the talker's face from the blend-shape head: display mesh, lips, mouth, teeth, tongue, eyes, lashes, the
-// modes over the talker's postures and every shape of the head by name. [ATR98, eqs. 1-7]
+// Makes the talker's face from the blend-shape head: display mesh, lips, mouth, teeth, tongue, eyes, lashes,
+// the modes over the talker's postures and every shape of the head by name. [ATR98, eqs. 1-7]
 #pragma once
 
 #include "facemodel/face.hpp"

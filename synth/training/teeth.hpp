@@ -1,5 +1,5 @@
-// Procedural teeth and gums: two arches of sixteen crowns, each a stack of rounded sections, set where the scan's
-// teeth stand. u runs round a crown, v from the neck (0) to the edge (1).
+// Procedural teeth and gums: two arches of sixteen crowns, each a stack of rounded sections, set where the
+// scan's teeth stand. u runs round a crown, v from the neck (0) to the edge (1).
 #pragma once
 
 #include "facemodel/lips.hpp"

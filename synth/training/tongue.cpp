@@ -20,7 +20,8 @@ Uvs grid_uvs(int rows, int columns, int more) {
 PartMesh tongue() {
     Uvs uvs = grid_uvs(TongueSweep::kSections, TongueSweep::kAround, 2);
     uvs.row(TongueSweep::kNodes - 1) << 0, 1;
-    return {"tongue", Material::kTongue, Drive::kTongue, TongueSweep::rest(), std::move(uvs), TongueSweep::triangles(0)};
+    return {"tongue",       Material::kTongue,        Drive::kTongue, TongueSweep::rest(),
+            std::move(uvs), TongueSweep::triangles(0)};
 }
 
 PartMesh mouth_lining(const Nodes& lining) {
