@@ -13,7 +13,7 @@
 
 namespace viaface::recited {
 
-inline constexpr int kModes = 5;
+inline constexpr int kModes = 10;
 inline constexpr double kContact = -2;  // first component: lips meet below this
 inline constexpr int kRate = 16000;     // Hz
 
