@@ -134,6 +134,13 @@ RankedTrack without_places(std::vector<RankedTime> times) {
     return ranked;
 }
 
+std::vector<double> graded(std::vector<double> times) {
+    const std::vector<double> added = grading_times(times, kMaxRecitedGapRatio);
+    times.insert(times.end(), added.begin(), added.end());
+    std::sort(times.begin(), times.end());
+    return times;
+}
+
 // The via times of the analysis, with every nucleus and both ends, well spaced.
 std::vector<double> refined_times(const std::vector<double>& analysed, const std::vector<double>& nuclei,
                                   const std::vector<PhoneSlot>& slots, int sample_rate) {
@@ -146,12 +153,7 @@ std::vector<double> refined_times(const std::vector<double>& analysed, const std
     }
     for (std::size_t i = 0; i < slots.size(); ++i)
         times.push_back({nuclei[i], nucleus_rank(slots[i].centre)});
-    std::vector<double> spaced =
-        thinned(without_places(std::move(times)), kRecitedGap, kRecitedGap).track.time_s;
-    const std::vector<double> added = grading_times(spaced, kMaxRecitedGapRatio);
-    spaced.insert(spaced.end(), added.begin(), added.end());
-    std::sort(spaced.begin(), spaced.end());
-    return spaced;
+    return graded(thinned(without_places(std::move(times)), kRecitedGap, kRecitedGap).track.time_s);
 }
 
 ViaPointTrack read_off(const SampledMotion& motion, std::vector<double> times, Eigen::Index k) {
@@ -179,31 +181,47 @@ RecitedPhone recited(const PhoneSlot& slot, Span span, double nucleus, const Via
     return phone;
 }
 
-// How far every point lies from the motion on the spline through the refined via points.
-struct Misses {
-    std::vector<double> farthest_mm;  // per slot
-    double square_sum = 0;
-    std::size_t count = 0;
-};
-
-Misses misses_of(const ConfigurationBasis& basis, const RecitationTake& take,
-                 const std::vector<PhoneSlot>& slots, const ViaPointTrack& track) {
+// How far the farthest point lies from the motion, at every sample, on the spline through the via points.
+std::vector<double> misses_mm(const ConfigurationBasis& basis, const RecitationTake& take,
+                              const ViaPointTrack& track) {
     const MinimumJerkSpline spline(track, SplineEnd::at_rest(), SplineEnd::at_rest());
-    Misses misses{std::vector<double>(slots.size(), 0.0)};
-    std::size_t slot = 0;
-    for (std::size_t i = 0; i < take.time_s.size(); ++i) {
+    std::vector<double> misses(take.time_s.size(), 0.0);
+    for (std::size_t i = 0; i < misses.size(); ++i) {
         const double time = take.time_s[i];
-        while (slot + 1 < slots.size() && time >= span_of(slots[slot], take.phones.sample_rate).end) ++slot;
         if (time < track.time_s.front() || time > track.time_s.back()) continue;
         const Configuration difference =
             basis.modes * (spline.at(time) - take.components.row(static_cast<Eigen::Index>(i)).transpose());
-        for (int p = 0; p < kPoints; ++p) {
-            misses.farthest_mm[slot] = std::max(misses.farthest_mm[slot], point_of(difference, p).norm());
-        }
-        misses.square_sum += difference.squaredNorm();
-        misses.count += kPoints;
+        for (int p = 0; p < kPoints; ++p) misses[i] = std::max(misses[i], point_of(difference, p).norm());
     }
     return misses;
+}
+
+// One more via time in every gap that misses the motion by over `bound_mm` and has room for it, where it
+// misses most.
+std::vector<double> mended(const std::vector<double>& times, const std::vector<double>& samples,
+                           const std::vector<double>& misses, double bound_mm) {
+    std::vector<double> result;
+    std::size_t sample = 0;
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+        result.push_back(times[i]);
+        double worst = bound_mm, at = 0;
+        for (; sample < samples.size() && samples[sample] < times[i + 1]; ++sample) {
+            if (samples[sample] >= times[i] && misses[sample] > worst)
+                std::tie(worst, at) = std::pair(misses[sample], samples[sample]);
+        }
+        const double low = times[i] + kRecitedGap, high = times[i + 1] - kRecitedGap;
+        if (worst > bound_mm && low <= high) result.push_back(std::clamp(at, low, high));
+    }
+    result.push_back(times.back());
+    return result;
+}
+
+double farthest_in(const Span& span, const std::vector<double>& samples, const std::vector<double>& misses) {
+    double farthest = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i] >= span.begin && samples[i] < span.end) farthest = std::max(farthest, misses[i]);
+    }
+    return farthest;
 }
 
 std::string printed(const char* format, auto... values) {
@@ -237,15 +255,23 @@ CutRecitation cut_recitation(const ConfigurationBasis& basis, const RecitationTa
     for (const PhoneSlot& slot : slots) {
         nuclei.push_back(nucleus_time(openness, slot.centre, span_of(slot, take.phones.sample_rate)));
     }
-    const ViaPointTrack track = read_off(
-        motion, refined_times(take.track.time_s, nuclei, slots, take.phones.sample_rate), basis.modes.cols());
-    const Misses misses = misses_of(basis, take, slots, track);
+    constexpr int kRounds = 4;
+    const Eigen::Index k = basis.modes.cols();
+    ViaPointTrack track =
+        read_off(motion, refined_times(take.track.time_s, nuclei, slots, take.phones.sample_rate), k);
+    std::vector<double> misses = misses_mm(basis, take, track);
+    for (int round = 0; round < kRounds; ++round) {
+        const std::vector<double> more = mended(track.time_s, take.time_s, misses, limits.mended_mm);
+        if (more.size() == track.time_s.size()) break;
+        track = read_off(motion, graded(more), k);
+        misses = misses_mm(basis, take, track);
+    }
 
     CutRecitation cut;
     for (std::size_t i = 0; i < slots.size(); ++i) {
         const Span span = span_of(slots[i], take.phones.sample_rate);
         RecitedPhone phone = recited(slots[i], span, nuclei[i], track);
-        const std::string reason = why_dropped(phone, misses.farthest_mm[i], limits);
+        const std::string reason = why_dropped(phone, farthest_in(span, take.time_s, misses), limits);
         phone.usable = reason.empty();
         if (!phone.usable) {
             const std::string name(phone_info(slots[i].centre).name);
@@ -253,8 +279,7 @@ CutRecitation cut_recitation(const ConfigurationBasis& basis, const RecitationTa
         }
         cut.recitation.push_back(std::move(phone));
     }
-    cut.farthest_mm = *std::max_element(misses.farthest_mm.begin(), misses.farthest_mm.end());
-    cut.rms_mm = misses.count == 0 ? 0 : std::sqrt(misses.square_sum / static_cast<double>(misses.count));
+    cut.farthest_mm = *std::max_element(misses.begin(), misses.end());
     return cut;
 }
 

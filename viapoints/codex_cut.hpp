@@ -22,6 +22,7 @@ struct RecitationTake {
 // Outside these a phone is an outlier: it stays as context, but is never spoken.
 struct CutLimits {
     double shortest_s = 0.030, longest_s = 0.500, longest_pause_s = 6;
+    double mended_mm = 0.5;  // via points are added, while there is room, where the spline misses by more
     double farthest_mm = 2;  // of any point from the motion, on the spline through the refined via points
 };
 
@@ -33,8 +34,7 @@ struct DroppedPhone {
 struct CutRecitation {
     Recitation recitation;
     std::vector<DroppedPhone> dropped;
-    double farthest_mm = 0,
-           rms_mm = 0;  // of the points on the spline from the motion: worst point, all points
+    double farthest_mm = 0;  // of any point from the motion, on the spline through the refined via points
 };
 
 // Throws std::invalid_argument when the shapes disagree, the rate is not fixed or too low, or the motion does
