@@ -9,6 +9,8 @@ namespace {
 using Eigen::Vector3d;
 constexpr int kRows = LipGrid::kRows, kColumns = LipGrid::kColumns, kMiddle = LipGrid::kMiddleRow;
 
+constexpr double kGrip = 0.4;  // mm: lips pressed this far into each other no longer slide
+
 int at(int row, int column) { return row * kColumns + (column + kColumns) % kColumns; }
 
 // 0 at the border, 1 from `full` on inwards.
@@ -31,6 +33,11 @@ struct MeetingLine {
             x[static_cast<std::size_t>(k)] = middle.x();
             y[static_cast<std::size_t>(k)] = middle.y();
         }
+    }
+
+    double middle_of(int column) const {
+        const int k = (column - kRightCorner + kColumns) % kColumns;
+        return x[static_cast<std::size_t>(std::min(k, kColumns - k))];
     }
 
     bool spans(double place) const { return place > x.front() && place < x.back(); }
@@ -111,8 +118,12 @@ void keep_lips_apart(Nodes& rows) {
             }
         }
         if (deepest <= 0) continue;
+        // Pressed lips do not slide: what meets, meets at one place across.
+        const double pressed = std::min(deepest / kGrip, 1.0);
+        const double aside = pressed * (line.middle_of(c) - rows(at(kRows - 1, c), 0));
         for (int r = 1; r < kRows; ++r) {
             auto node = rows.row(at(r, c));
+            node.x() += aside * hold(r, kRows - 1);
             node.y() += side * deepest * hold(r, full);
             if (r > full) continue;
             if (line.spans(node.x()) && side * (line(node.x()) - node.y()) > 0) node.y() = line(node.x());

@@ -13,6 +13,7 @@ namespace {
 
 // The axis about which the scan's lower teeth turn when jawOpen grows, mm.
 const Vector3d kHinge(0, 29.5, -88.3);
+constexpr double kModeTolerance = 1e-5;  // of the largest singular value: below it lies the scans' round-off
 
 JawMotion jaw_of(const Configuration& rest, const Configuration& now) {
     return jaw_motion(kHinge, point_of(rest, kLowerIncisor), point_of(now, kLowerIncisor));
@@ -189,7 +190,7 @@ Face make_face(const HeadToFace& source, const std::vector<Posture>& postures) {
         const auto rows = flat(face.rest).segment(3 * part.first_node, 3 * part.nodes);
         shapes.middleRows(3 * part.first_node, 3 * part.nodes).colwise() = rows;
     }
-    const PrincipalComponents components = principal_components(shapes);
+    const PrincipalComponents components = principal_components(shapes, -1, kModeTolerance);
     face.mean = components.mean;
     face.modes = components.modes;
     face.mode_variance = components.variance;
@@ -198,6 +199,26 @@ Face make_face(const HeadToFace& source, const std::vector<Posture>& postures) {
         face.shapes.push_back({name, source.posed(head.pose({{name, 1.0}})) - neutral});
     }
     return face;
+}
+
+PoseTraining pose_training(const HeadToFace& source, const Face& face, const std::vector<Posture>& postures) {
+    const BlendHead& head = source.head();
+    const auto count = static_cast<Eigen::Index>(postures.size());
+    PoseTraining training;
+    training.rest = head.points(head.pose(posture("closed_relaxed").weights));
+    training.configurations.resize(kCoordinates, count);
+    training.coefficients.resize(face.modes.cols(), count);
+    training.contours.resize(PoseTraining::kContourNumbers, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const Nodes scan = head.pose(postures[static_cast<std::size_t>(k)].weights);
+        training.configurations.col(k) = head.points(scan);
+        training.coefficients.col(k) = face.modes.transpose() * (flat(source.posed(scan)) - face.mean);
+        const LipContours contours = lip_contours(source.anchors(), scan);
+        training.contours.col(k) << Eigen::Map<const Eigen::VectorXd>(contours.middle.data(),
+                                                                      3 * LipGrid::kColumns),
+            Eigen::Map<const Eigen::VectorXd>(contours.inner.data(), 3 * LipGrid::kColumns);
+    }
+    return training;
 }
 
 }  // namespace viaface

@@ -4,6 +4,7 @@
 
 #include "facemodel/face.hpp"
 #include "facemodel/pca.hpp"
+#include "synth/pose/training.hpp"
 #include "synth/training/blend_head.hpp"
 #include "synth/training/display_mesh.hpp"
 #include "synth/training/postures.hpp"
@@ -28,5 +29,9 @@ class HeadToFace {
 };
 
 Face make_face(const HeadToFace& source, const std::vector<Posture>& postures = talker_postures());
+
+// What the estimators learn from, over the same postures as the face's modes.
+PoseTraining pose_training(const HeadToFace& source, const Face& face,
+                           const std::vector<Posture>& postures = talker_postures());
 
 }  // namespace viaface
