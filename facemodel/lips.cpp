@@ -9,7 +9,15 @@ namespace {
 using Eigen::Vector3d;
 constexpr int kRows = LipGrid::kRows, kColumns = LipGrid::kColumns, kMiddle = LipGrid::kMiddleRow;
 
-constexpr double kGrip = 0.4;  // mm: lips pressed this far into each other no longer slide
+constexpr double kAdhesion = 0.5;  // mm: lips this near begin to cling to each other
+
+// The opening that is drawn for one that is asked for: none past contact, all of it from kAdhesion on, smooth
+// between.
+double drawn_gap(double asked) {
+    if (asked <= 0) return 0;
+    if (asked >= kAdhesion) return asked;
+    return asked * asked * (2 * kAdhesion - asked) / (kAdhesion * kAdhesion);
+}
 
 int at(int row, int column) { return row * kColumns + (column + kColumns) % kColumns; }
 
@@ -104,29 +112,35 @@ void keep_off_teeth(Nodes& rows, const TeethFront& teeth) {
 
 void keep_lips_apart(Nodes& rows) {
     const MeetingLine line(rows);
+    std::array<double, kColumns> gaps{};
+    for (int c = 0; c < kColumns; ++c)
+        gaps[static_cast<std::size_t>(c)] = (upper_lip(c) ? 1 : -1) * lip_gap(rows, c);
     for (int c = 0; c < kColumns; ++c) {
         if (c == kLeftCorner || c == kRightCorner) continue;
-        const double side = upper_lip(c) ? 1 : -1;
+        const double side = upper_lip(c) ? 1 : -1, gap = gaps[static_cast<std::size_t>(c)];
+        const double at_edge =
+            (drawn_gap(gap) - gap) / 2;  // how far the inner node goes away from the other lip
         double deepest = 0;
         int full = kRows - 1;
-        for (int r = kMiddle; r < kRows; ++r) {
+        for (int r = kMiddle; r + 1 < kRows; ++r) {
             const auto node = rows.row(at(r, c));
             const double depth = line.spans(node.x()) ? side * (line(node.x()) - node.y()) : 0;
-            if (depth > deepest) {
+            if (depth > std::max(deepest, at_edge)) {
                 deepest = depth;
                 full = r;
             }
         }
-        if (deepest <= 0) continue;
         // Pressed lips do not slide: what meets, meets at one place across.
-        const double pressed = std::min(deepest / kGrip, 1.0);
+        const double pressed = 1 - std::clamp(gap / kAdhesion, 0.0, 1.0);
         const double aside = pressed * (line.middle_of(c) - rows(at(kRows - 1, c), 0));
         for (int r = 1; r < kRows; ++r) {
             auto node = rows.row(at(r, c));
+            const double beyond =
+                full + 1 < kRows ? std::clamp((r - full) / (kRows - 1.0 - full), 0.0, 1.0) : 1;
             node.x() += aside * hold(r, kRows - 1);
-            node.y() += side * deepest * hold(r, full);
-            if (r > full) continue;
-            if (line.spans(node.x()) && side * (line(node.x()) - node.y()) > 0) node.y() = line(node.x());
+            node.y() += side * hold(r, full) * ((1 - beyond) * deepest + beyond * at_edge);
+            if (r < kMiddle || r + 1 == kRows || !line.spans(node.x())) continue;
+            if (side * (line(node.x()) - node.y()) > 0) node.y() = line(node.x());
         }
     }
 }

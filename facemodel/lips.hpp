@@ -43,7 +43,8 @@ struct TeethFront {
 // Moves the lips out of the teeth, whichever way is shorter: in front of them or past their edges.
 void keep_off_teeth(Nodes& rows, const TeethFront& teeth);
 
-// Where the lips would cross they meet halfway; what lies behind follows, falling off towards the border.
+// Where the lips would cross they meet halfway, and within half a millimetre they cling; what lies outwards
+// follows, falling off towards the border.
 void keep_lips_apart(Nodes& rows);
 
 // Height of the opening at a column of the upper lip, mm: inner contour to inner contour.

@@ -9,7 +9,7 @@ namespace viaface {
 namespace {
 
 constexpr int kColumns = LipGrid::kColumns;
-constexpr int kRingNodes = 132, kLidNodes = 36, kBottomNodes = 36;
+constexpr int kRingNodes = 132, kLidNodes = 40, kBottomNodes = 36;
 constexpr std::uint64_t kSeed = 1998;
 
 using Curve = std::vector<Anchor>;
@@ -182,15 +182,38 @@ std::vector<Vector3d> spatial(const Curve& curve, const Nodes& scan) {
     return places;
 }
 
+// A place `out` mm outwards on the surface from one on the rim of a hole.
+Anchor outwards(const Anchor& from, const Vector2d& middle, double out, const Chart& chart,
+                const Nodes& scan) {
+    const Vector2d place = chart.uv(from), way = (place - middle) * 0.01;
+    Anchor to = from;
+    for (int step = 1; step < 300 && (to.at(scan) - from.at(scan)).norm() < out; ++step) {
+        to = chart.locate(place + step * way);
+    }
+    return to;
+}
+
+Vector2d middle_of(const std::vector<Vector2d>& places) {
+    Vector2d middle = Vector2d::Zero();
+    for (const Vector2d& p : places) middle += p / static_cast<double>(places.size());
+    return middle;
+}
+
+// The loop moved outwards by `out` mm.
+Curve offset_loop(const Curve& loop, double out, const Chart& chart, const Nodes& scan) {
+    const Vector2d middle = middle_of(places_of(loop, chart));
+    Curve moved;
+    for (const Anchor& anchor : loop) moved.push_back(outwards(anchor, middle, out, chart, scan));
+    return moved;
+}
+
 // Lashes stand this far out of the lid's inner margin, between the eye's corners.
 std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_corner, const Chart& chart,
                                 const Nodes& scan) {
     constexpr int kRoots = 13, kFine = 200;
     constexpr double kOut = 1.6;  // mm
     const Curve margin = resample_loop(hole, scan, kFine);
-    const std::vector<Vector2d> rim = places_of(margin, chart);
-    Vector2d middle = Vector2d::Zero();
-    for (const Vector2d& p : rim) middle += p / kFine;
+    const Vector2d middle = middle_of(places_of(margin, chart));
     const auto nearest = [&](int node) {
         const Vector3d corner = scan.row(node);
         std::size_t best = 0;
@@ -199,15 +222,6 @@ std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_co
         }
         return static_cast<int>(best);
     };
-    const auto outwards = [&](int k) {
-        const Anchor from = margin[static_cast<std::size_t>(k)];
-        const Vector2d place = chart.uv(from), way = (place - middle) * 0.01;
-        Anchor to = from;
-        for (int step = 1; step < 200 && (to.at(scan) - from.at(scan)).norm() < kOut; ++step) {
-            to = chart.locate(place + step * way);
-        }
-        return to;
-    };
     const int from = nearest(inner_corner), to = nearest(outer_corner);
     std::array<Curve, 2> lids;
     for (const int direction : {1, -1}) {
@@ -215,7 +229,8 @@ std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_co
         Curve roots;
         for (int i = 0; i < kRoots; ++i) {
             const int steps = static_cast<int>(std::lround(span * (0.14 + 0.84 * i / (kRoots - 1))));
-            roots.push_back(outwards(((from + direction * steps) % kFine + kFine) % kFine));
+            const int k = ((from + direction * steps) % kFine + kFine) % kFine;
+            roots.push_back(outwards(margin[static_cast<std::size_t>(k)], middle, kOut, chart, scan));
         }
         const auto middle_root = static_cast<std::size_t>(kRoots / 2);
         const bool upper =
@@ -229,9 +244,9 @@ std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_co
 
 // Wanted edge length over the face: fine at the lips, the lids and the nostrils, coarse far from them.
 Spacing face_spacing(std::vector<Vector3d> features, std::vector<Vector3d> nose) {
-    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 10, kEar = 4.5;
+    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 10, kEar = 4.5, kNoseFiner = 3;
     return [features = std::move(features), nose = std::move(nose)](const Vector3d& place) {
-        const double near = std::min(distance_to(features, place), distance_to(nose, place));
+        const double near = std::min(distance_to(features, place), distance_to(nose, place) - kNoseFiner);
         const bool ear = std::abs(place.x()) > 74 && place.y() > 5 && place.y() < 85;
         return std::min(kFinest + kGrowth * near, ear ? kEar : kCoarsest);
     };
@@ -264,7 +279,7 @@ DisplayAnchors remesh_head(const BlendHead& head) {
 
     mesh.front = ring;
     std::vector<Loop> loops = {counted(0, kRingNodes)};
-    Curve features = border;
+    Curve features = border, rings;
     for (const Loop& hole : face.holes()) {
         const double x = scan(hole.front(), 0);
         if (std::abs(x) < 10) continue;  // the mouth's own hole lies inside the lips
@@ -273,6 +288,10 @@ DisplayAnchors remesh_head(const BlendHead& head) {
         const Curve lid = resample_loop(hole, scan, kLidNodes);
         append(mesh.front, lid);
         append(features, lid);
+        for (const double out : {1.3, 2.8, 4.6}) {
+            const Curve round_lid = offset_loop(lid, out, face, scan);
+            rings.insert(rings.end(), round_lid.begin(), round_lid.end());
+        }
         const int inner = head.landmarks()[x > 0 ? 42 : 39], outer = head.landmarks()[x > 0 ? 45 : 36];
         const auto roots = lash_roots(hole, inner, outer, face, scan);
         for (std::size_t k = 0; k < 2; ++k) mesh.lash_roots[(x > 0 ? 0 : 2) + k] = roots[k];
@@ -280,6 +299,7 @@ DisplayAnchors remesh_head(const BlendHead& head) {
     mesh.border_first = static_cast<int>(mesh.front.size());
     loops.push_back(counted(mesh.border_first, kColumns));
     append(mesh.front, border);
+    append(mesh.front, rings);
 
     std::vector<Vector3d> nose;
     for (const int k : {31, 32, 33, 34, 35})
