@@ -76,6 +76,8 @@ std::string as_text(const AtrReport& r) {
            unseen_table("eight postures, on pressed /m/ and tucked /f/", r.beyond_eight) + "\n" +
            unseen_table("eight postures, on others (* not a mix of the talker's shapes)", r.eight.unseen) +
            "\n" + unseen_table(talker + ", each left out of the model that draws it", r.talker.left_out) +
+           line("  with the pseudo-inverse instead of the ridge, the worst of these nodes is %.1f mm off",
+                r.talker_unridged_max) +
            "\n" + unseen_table(talker + ", on others", r.talker.unseen);
 }
 

@@ -64,6 +64,7 @@ void the_mesh_lies_on_the_scan_and_its_markers_in_their_places(const AtrReport& 
 void the_eight_postures_are_drawn_from_their_own_markers(const AtrReport& report) {
     EXPECT_LT(report.eight.trained_max, 1e-10 * report.eight.condition);
     EXPECT_LT(report.talker.trained_max, 2);  // a ridge gives up a little of it
+    for (const UnseenFigures& u : report.talker.left_out) EXPECT_LT(u.drawn.max, report.talker_unridged_max);
 }
 
 // What the markers draw is in the span, so never nearer than the span's nearest: least squares over the
