@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "synth/training/bake_paint.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+constexpr float kIris = 6.0f, kPupil = 2.2f;  // mm, radii
+
+Vector3f iris(const Vector2f& from_middle, float share) {
+    const float angle = std::atan2(from_middle.y(), from_middle.x()), c = std::cos(angle),
+                s = std::sin(angle);
+    const float fibres = 0.75f * fractal(Vector3f(c * 7, s * 7, share * 1.6f)) +
+                         0.45f * noise(Vector3f(c * 20, s * 20, share * 2));
+    const Vector3f inner = linear_from_srgb(122, 86, 50), outer = linear_from_srgb(84, 88, 74);
+    return mix(inner, outer, smooth_step(0.38f, 0.75f, share)) * (0.30f + 1.05f * fibres);
+}
+
+Vector3f white_of_eye(const Vector3f& place, float out) {
+    const float vein = smooth_step(0.60f, 0.72f, fractal(place.cwiseProduct(Vector3f(0.2f, 0.5f, 0.3f)), 5));
+    Vector3f colour = linear_from_srgb(208, 198, 192) * (0.94f + 0.08f * noise(place * 0.3f));
+    colour = colour.cwiseProduct(
+        mix(Vector3f::Ones(), Vector3f(0.97f, 0.78f, 0.76f), vein * smooth_step(7, 13, out)));
+    return colour.cwiseProduct(
+        mix(Vector3f::Ones(), Vector3f(0.94f, 0.70f, 0.66f), smooth_step(9.5f, 14, out)));
+}
+
+struct Hair {
+    float root, lean, reach, width;
+};
+Hair hair(int index, int count) {
+    const float spread = 0.5f * (lattice(index, 1, 0) - 0.5f);
+    const float root = (index + 0.5f + spread) / count;
+    return {root, 0.10f * (root - 0.42f) + 0.022f * (lattice(index, 2, 0) - 0.5f),
+            0.62f + 0.38f * lattice(index, 3, 0), 0.0042f + 0.0015f * lattice(index, 4, 0)};
+}
+
+}  // namespace
+
+Vector3f linear_from_srgb(float red, float green, float blue) {
+    const auto linear = [](float c) {
+        c /= 255;
+        return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+    };
+    return {linear(red), linear(green), linear(blue)};
+}
+
+Paint eye_paint(const Texel& texel, const Vector3f& apex) {
+    const Vector2f q = (texel.place - apex).head<2>();
+    const float out = q.norm(), share = out / kIris;
+    Vector3f colour = iris(q, share) * (1 - 0.85f * smooth_step(0.78f, 1.0f, share));
+    colour *= mix(0.015f, 1.0f, smooth_step(kPupil - 0.25f, kPupil + 0.35f, out));
+    colour = mix(colour, white_of_eye(texel.place, out), smooth_step(kIris - 0.45f, kIris + 0.65f, out));
+    return {colour, 0.12f};
+}
+
+Paint teeth_paint(const Texel& texel) {
+    const Vector3f& p = texel.place;
+    const Vector3f crown = linear_from_srgb(232, 223, 203), neck = linear_from_srgb(214, 192, 156);
+    const float edge = smooth_step(0.82f, 1.0f, texel.v);
+    Vector3f colour = mix(neck, crown, smooth_step(0.05f, 0.5f, texel.v)) * (0.96f + 0.06f * noise(p * 0.5f));
+    colour = mix(colour, linear_from_srgb(206, 206, 200), 0.45f * edge);
+    Paint paint{colour, 0.24f};
+    paint.open =
+        mix(0.55f, 1.0f, smooth_step(0.0f, 0.3f, texel.v)) * mix(1.0f, 0.45f, smooth_step(-14, -45, p.z()));
+    return paint;
+}
+
+Paint gums_paint(const Texel& texel) {
+    const Vector3f& p = texel.place;
+    const Vector3f colour = linear_from_srgb(192, 104, 100) * (0.82f + 0.3f * fractal(p * 0.25f));
+    return {colour, 0.30f, 0, 1, mix(1.0f, 0.5f, smooth_step(-14, -45, p.z()))};
+}
+
+Paint tongue_paint(const Texel& texel) {
+    const Vector3f& p = texel.place;
+    const Vector3f edge = linear_from_srgb(206, 112, 108), top = linear_from_srgb(212, 134, 126);
+    const float coat = smooth_step(14, 4, std::abs(p.x())) * smooth_step(-14, -34, p.z());
+    Vector3f colour = mix(edge, top, coat) * (0.86f + 0.24f * fractal(p * 0.5f));
+    colour *= 1 - 0.14f * smooth_step(1.6f, 0.2f, std::abs(p.x())) * smooth_step(-16, -24, p.z());
+    return {colour, 0.40f};
+}
+
+Paint lining_paint(const Texel& texel) {
+    const Vector3f colour = linear_from_srgb(158, 72, 68) * (0.82f + 0.3f * fractal(texel.place * 0.2f));
+    return {colour, 0.34f, 0, 1, mix(1.0f, 0.5f, smooth_step(-20, -70, texel.place.z()))};
+}
+
+Paint lash_paint(const Texel& texel) {
+    constexpr int kHairs = 64;
+    constexpr float kEdge = 0.0016f;                          // of u: half a texel's softness
+    float cover = 0.55f * smooth_step(0.10f, 0.0f, texel.v);  // roots close together
+    for (int i = 0; i < kHairs; ++i) {
+        const auto [root, lean, reach, width] = hair(i, kHairs);
+        if (texel.v > reach) continue;
+        const float half = width * std::sqrt(1 - texel.v / reach);
+        const float off = std::abs(texel.u - root - lean * texel.v * (0.6f + 0.4f * texel.v));
+        cover = std::max(cover, smooth_step(half + kEdge, half - kEdge, off));
+    }
+    const float ends = smooth_step(0, 0.05f, texel.u) * smooth_step(1, 0.95f, texel.u);
+    return {linear_from_srgb(30, 22, 18), 0.6f, 0, cover * ends};
+}
+
+Paint cloth_paint(const Vector3f& place) {
+    const float weave = noise(place.cwiseProduct(Vector3f(1.3f, 2.0f, 1.3f)));
+    return {linear_from_srgb(44, 52, 70) * (0.8f + 0.25f * weave + 0.15f * fractal(place * 0.05f)), 0.95f};
+}
+
+float tongue_height(const Vector3f& place) {
+    return 0.22f * noise(place * 0.9f) + 0.1f * noise(place * 1.7f);
+}
+
+}  // namespace viaface

@@ -1,0 +1,217 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "synth/training/bake_paint.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+
+// The hairline seen from above the middle of the skull: height over the azimuth from straight ahead.
+struct HairlinePoint {
+    float azimuth, height;  // degrees, mm
+};
+constexpr HairlinePoint kHairline[] = {{0, 141},  {12, 143}, {24, 146},  {34, 141},  {42, 126}, {49, 108},
+                                       {57, 93},  {64, 78},  {70, 60},   {75, 54},   {80, 70},  {92, 88},
+                                       {104, 76}, {116, 26}, {128, -12}, {145, -24}, {180, -28}};
+const Vector3f kSkullMiddle(0, 0, -106);
+constexpr float kCollarSlope = 0.33f, kCollarHeight = -112.6f;  // the collar: y + slope * z = height, mm
+
+float hairline_height(float azimuth) {
+    const auto* after = std::ranges::find_if(kHairline, [&](const auto& p) { return p.azimuth >= azimuth; });
+    if (after == std::begin(kHairline)) return after->height;
+    const auto* before = after - 1;
+    return mix(before->height, after->height,
+               smooth_step(before->azimuth, after->azimuth, azimuth) * 0.5f +
+                   0.5f * (azimuth - before->azimuth) / (after->azimuth - before->azimuth));
+}
+
+struct NearSegment {
+    float distance, along;
+};
+NearSegment to_segment(const Vector3f& p, const Vector3f& a, const Vector3f& b) {
+    const Vector3f way = b - a;
+    const float t = clamp01((p - a).dot(way) / way.squaredNorm());
+    return {(p - a - t * way).norm(), t};
+}
+
+float collar(const Vector3f& p) { return p.y() + kCollarSlope * p.z() - kCollarHeight; }  // mm, > 0 skin
+
+Vector3f tinted(const Vector3f& colour, const Vector3f& tint, float share) {
+    return colour.cwiseProduct(mix(Vector3f::Ones(), tint, clamp01(share)));
+}
+
+}  // namespace
+
+SkinPaint::SkinPaint(const Face& face, const Landmarks& landmarks) {
+    for (std::size_t i = 0; i < marks_.size(); ++i) marks_[i] = landmarks[i].cast<float>();
+    for (int c = 0; c < LipGrid::kColumns; ++c) {
+        border_[c] = face.rest.row(face.lips.node(0, c)).transpose().cast<float>();
+    }
+}
+
+float SkinPaint::lip_depth(const Vector3f& p) const {
+    float nearest = 1e9f;
+    bool inside = false;
+    for (int c = 0; c < LipGrid::kColumns; ++c) {
+        const Vector3f &a = border_[c], &b = border_[(c + 1) % LipGrid::kColumns];
+        nearest = std::min(nearest, to_segment(p, a, b).distance);
+        if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+        if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+    }
+    return inside && nearest < 25 ? nearest : -nearest;
+}
+
+float SkinPaint::hair_depth(const Vector3f& p) const {
+    const Vector3f d = p - kSkullMiddle;
+    const float radius = std::hypot(d.x(), d.z());
+    const float azimuth = std::atan2(std::abs(d.x()), d.z()) * 57.29578f;
+    const float line = hairline_height(azimuth);
+    const float slope =
+        (hairline_height(std::min(azimuth + 2, 180.0f)) - line) / std::max(radius * 0.0349f, 1.0f);
+    const float ragged = 9 * (fractal(p * 0.09f) - 0.5f) + 5 * (noise(p * 0.35f) - 0.5f);
+    float depth = (p.y() - line) / std::sqrt(1 + slope * slope) + ragged;
+    const float ear = smooth_step(75, 79, std::abs(p.x())) * smooth_step(96, 84, p.y());
+    return mix(depth, -20, ear);
+}
+
+float SkinPaint::lid_distance(const Vector3f& p) const {
+    float nearest = 1e9f;
+    for (int eye = 36; eye <= 42; eye += 6) {
+        for (int k = 0; k < 6; ++k) {
+            nearest = std::min(nearest, to_segment(p, marks_[eye + k], marks_[eye + (k + 1) % 6]).distance);
+        }
+    }
+    return nearest;
+}
+
+SkinPaint::Brow SkinPaint::brow(const Vector3f& p) const {
+    Brow found{0, 0, 1e9f};
+    for (int side = 0; side < 2; ++side) {
+        for (int k = 0; k < 4; ++k) {
+            const Vector3f& inner = marks_[side ? 22 + k : 21 - k];
+            const Vector3f& outer = marks_[side ? 23 + k : 20 - k];
+            const auto [distance, t] = to_segment(p, inner, outer);
+            if (distance >= found.out) continue;
+            const Vector3f way = (outer - inner).normalized();
+            const Vector3f up = (Vector3f::UnitY() - way * way.y()).normalized();
+            found = {(k + t) / 4, (p - inner - t * (outer - inner)).dot(up), distance};
+        }
+    }
+    return found;
+}
+
+float SkinPaint::near(int landmark, const Vector3f& offset, const Vector3f& p, float radius) const {
+    return std::exp(-(p - marks_[landmark] - offset).squaredNorm() / (radius * radius));
+}
+
+Vector3f SkinPaint::complexion(const Vector3f& p) const {
+    const float broad = fractal(p * 0.055f), fine = fractal(p * 0.27f + Vector3f::Constant(3)),
+                grain = noise(p * 1.1f);
+    Vector3f colour = linear_from_srgb(206, 160, 140) * (0.87f + 0.15f * broad + 0.13f * fine);
+    colour = tinted(colour, {1.04f, 0.89f, 0.86f}, smooth_step(0.45f, 0.75f, fine) * 0.8f) *
+             (0.96f + 0.07f * grain);
+    const float cheeks = near(54, {21, 35, -19}, p, 24) + near(48, {-21, 35, -19}, p, 24);
+    const float nose = near(30, {0, -1, -4}, p, 14),
+                wings = near(35, {3, 5, 2}, p, 9) + near(31, {-3, 5, 2}, p, 9);
+    const float ears =
+        smooth_step(74, 84, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(-10, 10, p.y());
+    const float red =
+        0.45f * cheeks + 0.55f * nose + 0.5f * wings + 0.6f * ears + 0.25f * near(8, {0, 12, 2}, p, 15);
+    colour = tinted(colour, {1.04f, 0.80f, 0.77f}, red);
+    const float brow_height = marks_[24].y();
+    const float forehead =
+        smooth_step(brow_height + 3, brow_height + 33, p.y()) * smooth_step(-66, -26, p.z());
+    colour = tinted(colour, {1.02f, 1.0f, 0.93f}, 0.6f * forehead);
+    const float below_eyes = near(46, {-4, -9, 2}, p, 10) + near(41, {4, -9, 2}, p, 10);
+    colour = tinted(colour, {0.90f, 0.82f, 0.84f}, 0.6f * below_eyes);
+    const float above_eyes = near(43, {3, 6, 0}, p, 9) + near(38, {-3, 6, 0}, p, 9);
+    colour = tinted(colour, {0.95f, 0.85f, 0.83f}, 0.6f * above_eyes);
+    const float lid = lid_distance(p);
+    colour = tinted(colour, {0.88f, 0.64f, 0.60f}, (1 - smooth_step(0.3f, 3.0f, lid)) * 0.7f);
+    const float freckle = smooth_step(0.80f, 0.92f, noise(p * 0.65f + Vector3f::Constant(11))) *
+                          smooth_step(0.5f, 0.7f, noise(p * 0.13f)) * (0.3f + 0.6f * clamp01(cheeks + nose));
+    return tinted(colour, {0.86f, 0.78f, 0.74f}, freckle);
+}
+
+float SkinPaint::brow_cover(const Vector3f& p) const {
+    const auto [t, above, out] = brow(p);
+    if (out > 9) return 0;
+    const float half = mix(3.9f, 1.5f, smooth_step(0.35f, 1, t)) * smooth_step(-0.08f, 0.14f, t);
+    const float middle = above + 0.6f + 1.1f * (noise(Vector3f(t * 36, above * 0.9f, 1)) - 0.5f);
+    const float dense = 1 - smooth_step(half * 0.25f, half * 1.15f, std::abs(middle));
+    const float lean =
+        mix(0.25f, 1.9f, smooth_step(0, 0.5f, t));  // strands rise at the nose and lie down outwards
+    const float strand = noise(Vector3f((t * 44 - above * lean) * 1.25f, above * 0.35f, 5));
+    const float hairs = smooth_step(0.15f, 0.65f, strand + 0.2f * noise(Vector3f(t * 150, above * 2.2f, 2)));
+    const float past_end = std::sqrt(std::max(0.0f, out * out - above * above));
+    return dense * (0.42f + 0.58f * hairs) * smooth_step(2.2f, 0.2f, past_end) *
+           (1 - 0.6f * smooth_step(0.85f, 1, t));
+}
+
+float SkinPaint::stubble(const Vector3f& p) const {
+    const float ax = std::abs(p.x());
+    const float rise = 0.35f * std::max(0.0f, ax - 26);
+    float beard =
+        smooth_step(22, 8, p.y() - rise) * smooth_step(-76, -50, p.z()) * smooth_step(-80, -45, p.y());
+    const float side = smooth_step(60, 68, ax) * smooth_step(70, 55, p.y()) * smooth_step(-80, -68, p.z()) *
+                       smooth_step(-8, 15, p.y());
+    beard = std::max(beard, 0.7f * side);
+    return beard * (1 - 0.5f * near(51, {0, 4, 0}, p, 5));
+}
+
+float SkinPaint::nostril(const Vector3f& p, float open) const {
+    float dark = 0;
+    for (const int side : {-1, 1}) {
+        const Vector3f middle = (marks_[33 + side] + marks_[33 + 2 * side]) / 2 + Vector3f(0, 2, -4.5f);
+        const Vector3f d = (p - middle).cwiseProduct(Vector3f(1, 1.25f, 0.75f));
+        dark = std::max(dark, 1 - smooth_step(4.5f, 8.5f, d.norm()));
+    }
+    return dark * smooth_step(0.62f, 0.36f, open);
+}
+
+Paint SkinPaint::at(const Texel& texel, float open) const {
+    const Vector3f& p = texel.place;
+    if (collar(p) < 0) return cloth_paint(p);
+    const float into_lips = lip_depth(p),
+                lips = smooth_step(-1.2f, 1.1f, into_lips + 0.8f * (noise(p * 0.9f) - 0.5f));
+    const Vector3f bare = complexion(p);
+    const float beard = stubble(p) * (1 - lips) * smooth_step(0, -4, into_lips);
+    const float points = smooth_step(0.40f, 0.85f, noise(p.cwiseProduct(Vector3f(1.9f, 1.5f, 1.9f))));
+    Vector3f colour = tinted(bare, {0.56f, 0.56f, 0.60f}, beard * 0.36f * (0.55f + 0.7f * points));
+    const Vector3f red = bare.cwiseProduct(Vector3f(0.80f, 0.46f, 0.45f)) *
+                         (0.88f + 0.26f * fractal(p.cwiseProduct(Vector3f(0.9f, 0.25f, 0.4f))));
+    colour = mix(colour, red, 0.85f * lips);
+    const float behind = hair_depth(p), tips = noise(p.cwiseProduct(Vector3f(1.5f, 1.0f, 1.5f)));
+    const float stipple = smooth_step(0.2f, 0.7f, noise(p * 1.7f) * 0.6f + 0.4f * tips);
+    const float hair =
+        smooth_step(-7, 15, behind) * mix(0.55f + 0.45f * stipple, 1, smooth_step(2, 26, behind));
+    const Vector3f hair_colour = linear_from_srgb(44, 32, 25);
+    colour = mix(colour, hair_colour * (0.55f + 0.8f * tips), 0.94f * hair);
+    colour = mix(colour, hair_colour * 0.85f, 0.93f * clamp01(brow_cover(p)));
+    const float dark = nostril(p, open);
+    colour *= 1 - 0.85f * dark;
+    const float shine =
+        clamp01(near(30, {0, 0, 0}, p, 14) + smooth_step(105, 125, p.y()) * smooth_step(-50, -20, p.z()));
+    Paint paint{colour, mix(0.55f, 0.46f, shine)};
+    paint.roughness = mix(paint.roughness, 0.36f, lips);
+    paint.roughness = mix(paint.roughness, 0.72f, std::max(hair, 0.4f * beard));
+    paint.open = (1 - 0.9f * dark) * (1 - 0.25f * hair);
+    const float ear =
+        smooth_step(76, 86, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(0, 20, p.y());
+    paint.thinness = clamp01(0.9f * ear + 0.3f * (near(31, {0, 0, 0}, p, 8) + near(35, {0, 0, 0}, p, 8)));
+    return paint;
+}
+
+float SkinPaint::height(const Vector3f& p) const {
+    if (collar(p) < 0) return 1.2f * smooth_step(0, -1.5f, collar(p)) + 0.04f * noise(p * 1.3f);
+    const float lips = smooth_step(-0.5f, 1.5f, lip_depth(p)), hair = smooth_step(-3, 10, hair_depth(p));
+    const float pores = 0.11f * noise(p * 0.45f) + 0.055f * noise(p * 0.95f);
+    const float creases = 0.32f * noise(p.cwiseProduct(Vector3f(0.95f, 0.16f, 0.25f)));
+    return mix(mix(pores, creases, lips), 0.3f * noise(p * 0.8f) + 0.2f * noise(p * 1.4f), hair);
+}
+
+}  // namespace viaface
