@@ -1,7 +1,6 @@
 #include "synth/picture/changed_bands.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace viaface {
 namespace {
@@ -26,10 +25,10 @@ ChangedBands::ChangedBands(int width, int height) : width_(width), height_(heigh
 
 void ChangedBands::mark(const Extent& extent) {
     if (!touches(extent, {0, 0, width_, height_})) return;
-    const int left = std::max(0, int(std::floor(extent.left)));
-    const int right = std::min(width_, int(std::ceil(extent.right)));
-    const int first = std::max(0, int(std::floor(extent.bottom)) / kTile);
-    const int last = std::min(int(rows_.size()) - 1, int(std::ceil(extent.top)) / kTile);
+    const int left = std::max(0, int(extent.left));
+    const int right = std::min(width_, int(extent.right) + 1);
+    const int first = std::max(0, int(extent.bottom) / kTile);
+    const int last = std::min(int(rows_.size()) - 1, int(extent.top) / kTile);
     for (int row = first; row <= last; ++row) {
         rows_[row] = {std::min(rows_[row].left, left), std::max(rows_[row].right, right)};
     }

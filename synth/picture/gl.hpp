@@ -23,6 +23,7 @@ class Program {
 
     void use() const { glUseProgram(name_); }
     void set(const char* uniform, int value) const { glUniform1i(place(uniform), value); }
+    void set(const char* uniform, float value) const { glUniform1f(place(uniform), value); }
     void set(const char* uniform, const Eigen::Vector3d& value) const;
     void set(const char* uniform, const Eigen::Matrix4d& value) const;
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace viaface {
 namespace {
@@ -33,18 +32,25 @@ Opening opening_of(const LipGrid& lips, const NodesF& places) {
     return corners;
 }
 
+// angle / (2 pi sin(angle)) from the angle's cosine: a rational fit, within 1e-3 (S. Hill and E. Heitz,
+// "Real-time area lighting: a journey from research to production", SIGGRAPH 2016).
+float edge_share(float cosine) {
+    const float c = std::abs(cosine);
+    const float share =
+        (0.8543985f + (0.4965155f + 0.0145206f * c) * c) / (3.4175940f + (4.1616724f + c) * c);
+    return cosine > 0 ? share : 0.5f / std::sqrt(std::max(1 - c * c, 1e-7f)) - share;
+}
+
 // Lambert's sum; outwards, behind the opening and in front of it.
 Vector3f flow(const Opening& corners, const Vector3f& point) {
     Vector3f sum = Vector3f::Zero();
     Vector3f from = (corners.back() - point).normalized();
     for (const Vector3f& corner : corners) {
         const Vector3f to = (corner - point).normalized();
-        const Vector3f across = to.cross(from);  // the contour runs clockwise seen from inside
-        const float sine = across.norm();
-        if (sine > 1e-6f) sum += across * (std::atan2(sine, from.dot(to)) / sine);
+        sum += to.cross(from) * edge_share(from.dot(to));  // the contour runs clockwise seen from inside
         from = to;
     }
-    return sum / (2 * std::numbers::pi_v<float>);
+    return sum;
 }
 
 float light_at(const Opening& corners, const Vector3f& point, const Vector3f& normal) {

@@ -13,6 +13,7 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec4 tangent;
 uniform mat4 world_from_head, clip_from_world;
 uniform vec3 camera;
+uniform float nearer;
 out vec3 N, T, B, V;
 out vec2 st;
 out float lit;
@@ -26,7 +27,7 @@ void main() {
     V = normalize(camera - world.xyz);
     st = vec2(uv.x, 1 - uv.y);
     lit = light;
-    gl_Position = clip_from_world * world;
+    gl_Position = clip_from_world * vec4(world.xyz + nearer * V, 1);
 }
 )";
 
@@ -84,13 +85,13 @@ vec3 shade() {
     vec3 albedo = linear(texture(base_texture, st).rgb);
     vec4 s = texture(shade_texture, st);
     vec3 n = normalize(N);
-    float at_key = max((dot(n, key) + 0.4) / 1.4, 0), open = s.r * lit;
+    float at_key = max((dot(n, key) + 0.4) / 1.4, 0), open = s.r * (0.16 + 0.84 * lit);
     vec3 light = key_light * at_key * 0.75 + fill_light * max(dot(n, fill) + 0.3, 0) + sky(n.y) * 2.4;
     vec3 h = normalize(key + V);
     float vh = dot(V, h), nl = max(dot(n, key), 0);
     float wet = lobe(max(dot(n, h), 0), s.g * s.g) * fresnel(vh) * nl / (4 * vh * vh + 0.1);
-    vec3 deep = open + vec3(0.10, 0, 0) * open * (1 - open);
-    return albedo * light * deep * 0.36 + key_light * wet * open * open * 0.9;
+    vec3 deep = open + vec3(0.25, 0.02, 0.02) * open * (1 - open);
+    return albedo * light * deep * 0.42 + key_light * wet * open * open * 0.9;
 }
 )";
 

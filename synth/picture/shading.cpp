@@ -49,11 +49,14 @@ void bind(int unit, GLuint texture) {
     glBindTexture(GL_TEXTURE_2D, texture);
 }
 
-void prepare(const Program& program, const Camera& camera) {
+constexpr float kLashesBefore = 3;  // mm: lashes are drawn over the lids they grow from
+
+void prepare(const Program& program, const Camera& camera, Material material) {
     program.use();
     program.set("world_from_head", camera.world_from_head);
     program.set("clip_from_world", camera.clip_from_world);
     program.set("camera", camera.place);
+    program.set("nearer", material == Material::kLash ? kLashesBefore : 0.0f);
     program.set("base_texture", kBaseUnit);
     program.set("shade_texture", kShadeUnit);
     program.set("normal_texture", kNormalUnit);
@@ -72,7 +75,7 @@ Shading::Shading(const Face& face, const View& view, const Camera& camera) {
         const Surface& surface = face.surfaces[i];
         const auto [base, roughness] = plain(material);
         programs_.emplace_back(vertex_shader(), fragment_shader(material));
-        prepare(programs_.back(), camera);
+        prepare(programs_.back(), camera, material);
         bound_[i] = {&programs_.back(), texture_or(surface.base_colour, one_pixel(base[0], base[1], base[2])),
                      texture_or(surface.occlusion_roughness, one_pixel(255, roughness, 0)),
                      texture_or(surface.normal, one_pixel(128, 128, 255))};

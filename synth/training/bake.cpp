@@ -89,6 +89,16 @@ Vector3f apex(const Face& face, const FacePart& part) {
     return face.rest.row(part.first_node + foremost).transpose().cast<float>();
 }
 
+// Both eyes share a texture, though noses stand on either side.
+void share_between_sides(std::vector<float>& open, int side) {
+    for (std::size_t row = 0; row < open.size(); row += side) {
+        for (int x = 0; x < side / 2; ++x) {
+            float &one = open[row + x], &other = open[row + side - 1 - x];
+            one = other = std::max(one, other);
+        }
+    }
+}
+
 struct Recipe {
     Material material;
     int side;  // texels
@@ -124,9 +134,9 @@ void bake_surfaces(Face& face, const Landmarks& landmarks) {
         if (!has(face, material)) continue;
         Surface& surface = face.surfaces[static_cast<std::size_t>(material)];
         const TexelGrid grid = lay_out(face, material, side);
-        const std::vector<float> open = lit_from_outside(material)
-                                            ? openness(face, casters(face, material), grid)
-                                            : std::vector<float>(grid.texels.size(), 1.0f);
+        std::vector<float> open = lit_from_outside(material) ? openness(face, casters(face, material), grid)
+                                                             : std::vector<float>(grid.texels.size(), 1.0f);
+        if (material == Material::kEye) share_between_sides(open, side);
         paint_surface(surface, grid, open, paint, material == Material::kLash);
         if (height) surface.normal = normal_texture(grid, height);
     }

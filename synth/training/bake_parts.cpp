@@ -88,13 +88,13 @@ Paint tongue_paint(const Texel& texel) {
 
 Paint lining_paint(const Texel& texel) {
     const Vector3f colour = linear_from_srgb(158, 72, 68) * (0.82f + 0.3f * fractal(texel.place * 0.2f));
-    return {colour, 0.34f, 0, 1, mix(1.0f, 0.5f, smooth_step(-20, -70, texel.place.z()))};
+    return {colour, 0.34f, 0, 1, mix(1.0f, 0.7f, smooth_step(-20, -70, texel.place.z()))};
 }
 
 Paint lash_paint(const Texel& texel) {
     constexpr int kHairs = 64;
-    constexpr float kEdge = 0.0016f;                          // of u: half a texel's softness
-    float cover = 0.55f * smooth_step(0.10f, 0.0f, texel.v);  // roots close together
+    constexpr float kEdge = 0.0016f;                         // of u: half a texel's softness
+    float cover = 0.4f * smooth_step(0.10f, 0.0f, texel.v);  // roots close together
     for (int i = 0; i < kHairs; ++i) {
         const auto [root, lean, reach, width] = hair(i, kHairs);
         if (texel.v > reach) continue;
@@ -103,7 +103,7 @@ Paint lash_paint(const Texel& texel) {
         cover = std::max(cover, smooth_step(half + kEdge, half - kEdge, off));
     }
     const float ends = smooth_step(0, 0.05f, texel.u) * smooth_step(1, 0.95f, texel.u);
-    return {linear_from_srgb(30, 22, 18), 0.6f, 0, cover * ends};
+    return {linear_from_srgb(24, 17, 14), 0.6f, 0, cover * ends};
 }
 
 Paint cloth_paint(const Vector3f& place) {

@@ -14,19 +14,26 @@ using Eigen::Vector3f;
 struct HairlinePoint {
     float azimuth, height;  // degrees, mm
 };
-constexpr HairlinePoint kHairline[] = {{0, 141},  {12, 143}, {24, 146},  {34, 141},  {42, 126}, {49, 108},
+constexpr HairlinePoint kHairline[] = {{0, 134},  {12, 135}, {24, 137},  {34, 133},  {42, 121}, {49, 106},
                                        {57, 93},  {64, 78},  {70, 60},   {75, 54},   {80, 70},  {92, 88},
                                        {104, 76}, {116, 26}, {128, -12}, {145, -24}, {180, -28}};
 const Vector3f kSkullMiddle(0, 0, -106);
 constexpr float kCollarSlope = 0.33f, kCollarHeight = -112.6f;  // the collar: y + slope * z = height, mm
 
-float hairline_height(float azimuth) {
+float between_points(float azimuth) {
     const auto* after = std::ranges::find_if(kHairline, [&](const auto& p) { return p.azimuth >= azimuth; });
     if (after == std::begin(kHairline)) return after->height;
     const auto* before = after - 1;
     return mix(before->height, after->height,
-               smooth_step(before->azimuth, after->azimuth, azimuth) * 0.5f +
-                   0.5f * (azimuth - before->azimuth) / (after->azimuth - before->azimuth));
+               (azimuth - before->azimuth) / (after->azimuth - before->azimuth));
+}
+
+// Rounded over `half` degrees to either side.
+float hairline_height(float azimuth) {
+    constexpr float half = 5;
+    float sum = 0;
+    for (int k = -2; k <= 2; ++k) sum += between_points(std::clamp(azimuth + k * half / 2, 0.0f, 180.0f));
+    return sum / 5;
 }
 
 struct NearSegment {
@@ -71,10 +78,11 @@ float SkinPaint::hair_depth(const Vector3f& p) const {
     const float azimuth = std::atan2(std::abs(d.x()), d.z()) * 57.29578f;
     const float line = hairline_height(azimuth);
     const float slope =
-        (hairline_height(std::min(azimuth + 2, 180.0f)) - line) / std::max(radius * 0.0349f, 1.0f);
+        (hairline_height(std::min(azimuth + 4, 180.0f)) - hairline_height(std::max(azimuth - 4, 0.0f))) /
+        std::max(radius * 0.1396f, 4.0f);
     const float ragged = 9 * (fractal(p * 0.09f) - 0.5f) + 5 * (noise(p * 0.35f) - 0.5f);
     float depth = (p.y() - line) / std::sqrt(1 + slope * slope) + ragged;
-    const float ear = smooth_step(75, 79, std::abs(p.x())) * smooth_step(96, 84, p.y());
+    const float ear = smooth_step(76, 80, std::abs(p.x())) * smooth_step(88, 76, p.y());
     return mix(depth, -20, ear);
 }
 
@@ -164,13 +172,12 @@ float SkinPaint::stubble(const Vector3f& p) const {
 }
 
 float SkinPaint::nostril(const Vector3f& p, float open) const {
-    float dark = 0;
+    float inside = 0;
     for (const int side : {-1, 1}) {
-        const Vector3f middle = (marks_[33 + side] + marks_[33 + 2 * side]) / 2 + Vector3f(0, 2, -4.5f);
-        const Vector3f d = (p - middle).cwiseProduct(Vector3f(1, 1.25f, 0.75f));
-        dark = std::max(dark, 1 - smooth_step(4.5f, 8.5f, d.norm()));
+        const Vector3f middle = (marks_[33 + side] + marks_[33 + 2 * side]) / 2 + Vector3f(0, 4, -5);
+        inside = std::max(inside, smooth_step(13, 8, (p - middle).norm()));
     }
-    return dark * smooth_step(0.62f, 0.36f, open);
+    return inside * smooth_step(0.50f, 0.26f, open);
 }
 
 Paint SkinPaint::at(const Texel& texel, float open) const {
@@ -199,7 +206,7 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
     Paint paint{colour, mix(0.55f, 0.46f, shine)};
     paint.roughness = mix(paint.roughness, 0.36f, lips);
     paint.roughness = mix(paint.roughness, 0.72f, std::max(hair, 0.4f * beard));
-    paint.open = (1 - 0.9f * dark) * (1 - 0.25f * hair);
+    paint.open = (1 - 0.9f * dark) * (1 - 0.35f * hair);
     const float ear =
         smooth_step(76, 86, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(0, 20, p.y());
     paint.thinness = clamp01(0.9f * ear + 0.3f * (near(31, {0, 0, 0}, p, 8) + near(35, {0, 0, 0}, p, 8)));

@@ -113,6 +113,7 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
     parts.push_back(lower_gums());
     parts.back().nodes = on_jaw(parts.back().nodes, jaw);
     parts.push_back(tongue());
+    fold_round(parts.back().uvs, TongueSweep::kAround, TongueSweep::kSections);
     parts.back().nodes =
         TongueSweep::posed(parts.back().nodes, tongue_points(rest), tongue_points(head.points(scan)), jaw);
     parts.push_back(eye(+1));
