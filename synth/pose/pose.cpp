@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "synth/pose/eye_ball.hpp"
 
 namespace viaface {
 namespace {
@@ -127,12 +128,14 @@ Eigen::MatrixXd spread(const std::array<double, 8>& columns) {
     return weights;
 }
 
-// The nodes that a blink moves, and by how much.
+// The nodes that a blink moves, and by how much. The lids slide over the eyeball.
 struct BlinkMoves {
     std::vector<int> nodes;
     Nodes moves;
+    std::vector<double> rest_radius;  // mm from the eye's centre
+    EyeBall ball;
 
-    BlinkMoves(const Face& face, const std::string& name) {
+    BlinkMoves(const Face& face, const std::string& name, double side) : ball(eye_ball(side)) {
         const auto shape = std::find_if(face.shapes.begin(), face.shapes.end(),
                                         [&](const NamedShape& s) { return s.name == name; });
         if (shape == face.shapes.end()) throw std::invalid_argument("the face has no shape " + name);
@@ -141,16 +144,27 @@ struct BlinkMoves {
         }
         moves.resize(static_cast<Eigen::Index>(nodes.size()), 3);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
-            moves.row(static_cast<Eigen::Index>(k)) = shape->delta.row(nodes[k]);
+            moves.row(static_cast<Eigen::Index>(k)) = kShutting * shape->delta.row(nodes[k]);
+            rest_radius.push_back((face.rest.row(nodes[k]).transpose() - ball.centre).norm());
         }
     }
 
     void add_to(Nodes& mesh, double amount) const {
         if (amount == 0) return;
         for (std::size_t k = 0; k < nodes.size(); ++k) {
-            mesh.row(nodes[k]) += amount * moves.row(static_cast<Eigen::Index>(k));
+            auto node = mesh.row(nodes[k]);
+            node += amount * moves.row(static_cast<Eigen::Index>(k));
+            if (rest_radius[k] < EyeBall::kRadius || rest_radius[k] > kLidReach) continue;
+            const Vector3d from = node.transpose() - ball.centre;
+            const double angle = std::acos(std::clamp(from.z() / from.norm(), -1.0, 1.0));
+            const double least = EyeBall::radius_at(angle) + kLidThickness;
+            if (from.norm() < least) node = (ball.centre + from * (least / from.norm())).transpose();
         }
     }
+
+    static constexpr double kShutting = 1.12;      // the scan's lids stop 0.9 mm short of each other
+    static constexpr double kLidThickness = 0.35;  // mm
+    static constexpr double kLidReach = 22;        // mm: farther nodes are no lid
 };
 
 // The 16 lip points to the middle and the inner contour.
@@ -248,8 +262,8 @@ struct Poser::Parts {
               LinearEstimator(driving_points(training.configurations), training.coefficients, {kMarkerNoise})
                   .for_presence(Presence(kFaceMarkers + 1, true))),
           contours(face.rest, face.lips, training),
-          blink_left(face, "eyeBlink_L"),
-          blink_right(face, "eyeBlink_R"),
+          blink_left(face, "eyeBlink_L", +1),
+          blink_right(face, "eyeBlink_R", -1),
           upper(teeth_front(face, "teeth_upper", +1)),
           lower(teeth_front(face, "teeth_lower", -1)),
           mouth(part_named(face, "mouth")),

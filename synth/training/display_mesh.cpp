@@ -13,6 +13,13 @@ constexpr int kRingNodes = 132, kLidNodes = 40, kBottomNodes = 36;
 constexpr std::uint64_t kSeed = 1998;
 
 using Curve = std::vector<Anchor>;
+using Landmarks = std::initializer_list<int>;  // of the 68
+
+// Inner to outer corner, then back.
+constexpr Landmarks kLeftUpperLid = {42, 43, 44, 45}, kLeftLowerLid = {45, 46, 47, 42},
+                    kRightUpperLid = {39, 38, 37, 36}, kRightLowerLid = {36, 41, 40, 39};
+
+void append(Curve& to, const Curve& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<Triangle> triangles_of(const ObjScan& scan, const std::string& material, int last_node) {
     const auto found = std::find(scan.materials.begin(), scan.materials.end(), material);
@@ -158,7 +165,7 @@ Curve midway(const Curve& outer, const Curve& inner, const Chart& chart, const N
     return middle;
 }
 
-std::vector<int> landmark_ring(const BlendHead& head, std::initializer_list<int> landmarks) {
+std::vector<int> landmark_ring(const BlendHead& head, Landmarks landmarks) {
     std::vector<int> nodes;
     for (const int k : landmarks) nodes.push_back(head.landmarks().at(static_cast<std::size_t>(k)));
     return nodes;
@@ -207,39 +214,37 @@ Curve offset_loop(const Curve& loop, double out, const Chart& chart, const Nodes
     return moved;
 }
 
-// Lashes stand this far out of the lid's inner margin, between the eye's corners.
-std::array<Curve, 2> lash_roots(const Loop& hole, int inner_corner, int outer_corner, const Chart& chart,
-                                const Nodes& scan) {
-    constexpr int kRoots = 13, kFine = 200;
-    constexpr double kOut = 1.6;  // mm
-    const Curve margin = resample_loop(hole, scan, kFine);
-    const Vector2d middle = middle_of(places_of(margin, chart));
-    const auto nearest = [&](int node) {
-        const Vector3d corner = scan.row(node);
-        std::size_t best = 0;
-        for (std::size_t k = 0; k < margin.size(); ++k) {
-            if ((margin[k].at(scan) - corner).norm() < (margin[best].at(scan) - corner).norm()) best = k;
+// The lid's edge, where it folds towards the eyeball: upper lid from the inner to the outer corner, then the
+// lower lid back.
+struct LidEdge {
+    std::vector<Vector2d> upper, lower;  // fine curves of the chart
+    Curve ring;                          // kLidNodes at equal steps of each lid
+};
+
+LidEdge lid_edge(const std::vector<int>& upper, const std::vector<int>& lower, const Chart& chart,
+                 const Nodes& scan) {
+    const auto spline = [&](const std::vector<int>& nodes) {
+        std::vector<Vector2d> places;
+        std::vector<Vector3d> spatial;
+        for (const int node : nodes) {
+            places.push_back(chart.uv(node));
+            spatial.push_back(scan.row(node).transpose());
         }
-        return static_cast<int>(best);
+        return spline_through(places, arcs(spatial));
     };
-    const int from = nearest(inner_corner), to = nearest(outer_corner);
-    std::array<Curve, 2> lids;
-    for (const int direction : {1, -1}) {
-        const int span = ((to - from) * direction % kFine + kFine) % kFine;
-        Curve roots;
-        for (int i = 0; i < kRoots; ++i) {
-            const int steps = static_cast<int>(std::lround(span * (0.14 + 0.84 * i / (kRoots - 1))));
-            const int k = ((from + direction * steps) % kFine + kFine) % kFine;
-            roots.push_back(outwards(margin[static_cast<std::size_t>(k)], middle, kOut, chart, scan));
-        }
-        const auto middle_root = static_cast<std::size_t>(kRoots / 2);
-        const bool upper =
-            roots[middle_root].at(scan).y() > (margin[static_cast<std::size_t>(from)].at(scan).y() +
-                                               margin[static_cast<std::size_t>(to)].at(scan).y()) /
-                                                  2;
-        lids[upper ? 0 : 1] = std::move(roots);
-    }
-    return lids;
+    LidEdge edge{spline(upper), spline(lower), {}};
+    edge.ring = resample_curve(edge.upper, chart, scan, kLidNodes / 2);
+    append(edge.ring, resample_curve(edge.lower, chart, scan, kLidNodes / 2));
+    return edge;
+}
+
+// Where lashes grow on one lid: nose to temple, off the corners.
+Curve lash_roots(const std::vector<Vector2d>& lid, bool from_temple, const Chart& chart, const Nodes& scan) {
+    constexpr int kSteps = 18;
+    constexpr std::size_t kOffNose = 3, kOffTemple = 2;
+    Curve roots = resample_curve(lid, chart, scan, kSteps);
+    if (from_temple) std::reverse(roots.begin(), roots.end());
+    return {roots.begin() + kOffNose, roots.end() - kOffTemple};
 }
 
 // Wanted edge length over the face: fine at the lips, the lids and the nostrils, coarse far from them.
@@ -257,8 +262,6 @@ Loop counted(int first, int count) {
     for (int i = 0; i < count; ++i) loop[static_cast<std::size_t>(i)] = first + i;
     return loop;
 }
-
-void append(Curve& to, const Curve& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 }  // namespace
 
@@ -288,13 +291,14 @@ DisplayAnchors remesh_head(const BlendHead& head) {
         const Curve lid = resample_loop(hole, scan, kLidNodes);
         append(mesh.front, lid);
         append(features, lid);
-        for (const double out : {1.3, 2.8, 4.6}) {
-            const Curve round_lid = offset_loop(lid, out, face, scan);
-            rings.insert(rings.end(), round_lid.begin(), round_lid.end());
-        }
-        const int inner = head.landmarks()[x > 0 ? 42 : 39], outer = head.landmarks()[x > 0 ? 45 : 36];
-        const auto roots = lash_roots(hole, inner, outer, face, scan);
-        for (std::size_t k = 0; k < 2; ++k) mesh.lash_roots[(x > 0 ? 0 : 2) + k] = roots[k];
+        const bool left = x > 0;
+        const LidEdge edge = lid_edge(landmark_ring(head, left ? kLeftUpperLid : kRightUpperLid),
+                                      landmark_ring(head, left ? kLeftLowerLid : kRightLowerLid), face, scan);
+        append(rings, edge.ring);
+        append(features, edge.ring);
+        for (const double out : {1.5, 3.4}) append(rings, offset_loop(edge.ring, out, face, scan));
+        mesh.lash_roots[left ? 0 : 2] = lash_roots(edge.upper, false, face, scan);
+        mesh.lash_roots[left ? 1 : 3] = lash_roots(edge.lower, true, face, scan);
     }
     mesh.border_first = static_cast<int>(mesh.front.size());
     loops.push_back(counted(mesh.border_first, kColumns));

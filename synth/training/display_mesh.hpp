@@ -15,8 +15,8 @@ namespace viaface {
 struct DisplayAnchors {
     std::vector<Anchor> front;  // the face's chart: first the ring shared with the back, then the lid
                                 // margins, the lips' border, the rest
-    std::vector<Anchor> back;  // the back of the head and the shoulders; first the shared ring again
-    int ring = 0;              // nodes of the shared ring
+    std::vector<Anchor> back;   // the back of the head and the shoulders; first the shared ring again
+    int ring = 0;               // nodes of the shared ring
     int lid_first[2] = {0, 0}, lid_nodes = 0;  // left, right eye: the margin's loop in `front`
     int border_first = 0;                      // 40 nodes in `front`: the lips' outer contour
     std::vector<Triangle> front_triangles, back_triangles;

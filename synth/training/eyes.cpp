@@ -13,15 +13,7 @@ constexpr int kEyeRings = 9, kEyeAround = 20;
 constexpr double kLastAngle = 1.75;  // radians from straight ahead; the rest is never seen
 constexpr int kLashRows = 4;
 
-double radius_at(double angle) {
-    const double edge = std::asin(EyeBall::kIrisRadius / EyeBall::kRadius);
-    const double t = std::clamp(angle / (1.15 * edge), 0.0, 1.0);
-    return EyeBall::kRadius + EyeBall::kCorneaRise * (1 - t * t) * (1 - t * t);
-}
-
 }  // namespace
-
-EyeBall eye_ball(double side) { return {Vector3d(side * 31.2, 71.0, -26.7)}; }
 
 PartMesh eye(double side) {
     constexpr int kNodes = kEyeRings * kEyeAround + 1;
@@ -38,13 +30,13 @@ PartMesh eye(double side) {
             const double round = 2 * std::numbers::pi * k / kEyeAround;
             const Vector3d way(std::sin(angle) * std::cos(round), std::sin(angle) * std::sin(round),
                                std::cos(angle));
-            part.nodes.row(r * kEyeAround + k) = (centre + radius_at(angle) * way).transpose();
+            part.nodes.row(r * kEyeAround + k) = (centre + EyeBall::radius_at(angle) * way).transpose();
             const double reach = angle / (2 * std::numbers::pi);
             part.uvs.row(r * kEyeAround + k) << static_cast<float>(0.5 + reach * std::cos(round)),
                 static_cast<float>(0.5 + reach * std::sin(round));
         }
     }
-    part.nodes.row(kNodes - 1) = (centre + Vector3d(0, 0, radius_at(0))).transpose();
+    part.nodes.row(kNodes - 1) = (centre + Vector3d(0, 0, EyeBall::radius_at(0))).transpose();
     part.uvs.row(kNodes - 1) << 0.5f, 0.5f;
     const auto node = [](int r, int k) { return r * kEyeAround + k % kEyeAround; };
     for (int k = 0; k < kEyeAround; ++k) {

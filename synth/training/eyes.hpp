@@ -4,17 +4,10 @@
 // (0) to the tip (1).
 #pragma once
 
-#include <array>
-
+#include "synth/pose/eye_ball.hpp"
 #include "synth/training/part_mesh.hpp"
 
 namespace viaface {
-
-struct EyeBall {
-    static constexpr double kRadius = 15.3, kIrisRadius = 6.0, kCorneaRise = 1.2;  // mm
-    Eigen::Vector3d centre;
-};
-EyeBall eye_ball(double side);  // +1 the talker's left
 
 PartMesh eye(double side);
 
