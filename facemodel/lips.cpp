@@ -95,13 +95,15 @@ std::vector<Triangle> lip_triangles(const LipGrid& grid) {
 
 void keep_off_teeth(Nodes& rows, const TeethFront& teeth) {
     constexpr int kFirstRow = 4;
+    constexpr double kEdgeFirst = 3;  // the other lip comes from beyond the edge and stops there rather
     for (int c = 0; c < kColumns; ++c) {
         for (int r = kFirstRow; r < kRows; ++r) {
             auto node = rows.row(at(r, c));
             const double into = teeth.z(node.x()) - node.z();            // behind the front, mm
             const double over = teeth.side * (node.y() - teeth.edge_y);  // past the edge, mm
             if (into <= 0 || over <= 0) continue;
-            if (into < over) {
+            const bool own = upper_lip(c) == (teeth.side > 0);
+            if (into * (own ? 1 : kEdgeFirst) < over) {
                 node.z() += into;
             } else {
                 node.y() = teeth.edge_y;
