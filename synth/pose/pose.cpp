@@ -218,7 +218,7 @@ class LipEstimator {
 TeethFront teeth_front(const Face& face, const std::string& name, double side) {
     constexpr double kFrontHalf = 15, kMiddleHalf = 4, kVisible = 8;  // mm
     const FacePart& part = part_named(face, name);
-    TeethFront front{-1e9, 0, -side * 1e9, side, 2.0};
+    TeethFront front{-1e9, 0, side * 1e9, side, 2.0};
     for (int i = part.first_node; i < part.first_node + part.nodes; ++i) {
         if (std::abs(face.rest(i, 0)) > kMiddleHalf) continue;
         if (side * face.rest(i, 1) < side * front.edge_y) front.edge_y = face.rest(i, 1);
