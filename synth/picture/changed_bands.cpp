@@ -14,9 +14,26 @@ Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen
             std::min({a.y(), b.y(), c.y()}) - kReach, std::max({a.y(), b.y(), c.y()}) + kReach};
 }
 
+Extent extent_of(const Rect& rect) {
+    return {float(rect.left), float(rect.left + rect.width), float(rect.bottom),
+            float(rect.bottom + rect.height)};
+}
+
 bool touches(const Extent& extent, const Rect& rect) {
     return extent.left < rect.left + rect.width && extent.right > rect.left &&
            extent.bottom < rect.bottom + rect.height && extent.top > rect.bottom;
+}
+
+Rect common(const Rect& a, const Rect& b) {
+    const int left = std::max(a.left, b.left), bottom = std::max(a.bottom, b.bottom);
+    return {left, bottom, std::max(0, std::min(a.left + a.width, b.left + b.width) - left),
+            std::max(0, std::min(a.bottom + a.height, b.bottom + b.height) - bottom)};
+}
+
+Extent within(const Extent& extent, const Rect& rect) {
+    return {std::max<float>(extent.left, rect.left), std::min<float>(extent.right, rect.left + rect.width),
+            std::max<float>(extent.bottom, rect.bottom),
+            std::min<float>(extent.top, rect.bottom + rect.height)};
 }
 
 ChangedBands::ChangedBands(int width, int height) : width_(width), height_(height) {

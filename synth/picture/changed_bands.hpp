@@ -15,7 +15,11 @@ struct Extent {
 // All of what a triangle can touch, the reach of its edges' samples included.
 Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c);
 
+Extent extent_of(const Rect& rect);
+
 bool touches(const Extent& extent, const Rect& rect);
+Rect common(const Rect& a, const Rect& b);  // empty: no width or no height
+Extent within(const Extent& extent, const Rect& rect);
 
 class ChangedBands {
   public:

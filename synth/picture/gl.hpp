@@ -39,6 +39,7 @@ GLuint make_buffer();
 
 struct Rect {
     int left = 0, bottom = 0, width = 0, height = 0;  // pixels, from the lower left corner
+    bool operator==(const Rect&) const = default;
 };
 
 // A picture of four samples per pixel with its depth, and the plain picture it is resolved to.

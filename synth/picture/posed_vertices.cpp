@@ -15,16 +15,27 @@ float grained(double mm) {
 
 }  // namespace
 
-PosedVertices::PosedVertices(const Face& face, const Eigen::Matrix4d& clip_from_head, int width, int height)
-    : node_normals_(face),
+PosedVertices::PosedVertices(const Face& face, const View& view, const Eigen::Matrix4d& clip_from_head)
+    : rest_(face.rest),
+      hair_(Portrait::kHair * pixel_size(view)),
+      node_normals_(face),
       mouth_light_(face),
       clip_from_head_(clip_from_head.cast<float>()),
-      half_picture_(0.5f * width, 0.5f * height),
+      half_picture_(0.5f * view.width, 0.5f * view.height),
       places_(face.rest.rows(), 3),
       vertices_(face.rest.rows()),
       kept_vertices_(face.rest.rows()),
       pixels_(face.rest.rows()),
       kept_pixels_(face.rest.rows()) {}
+
+void PosedVertices::place(const Nodes& posed) {
+    for (Eigen::Index i = 0; i < posed.rows(); ++i) {
+        const Eigen::RowVector3d way = posed.row(i) - rest_.row(i);
+        const double length = way.norm();
+        const double share = length > hair_ ? 1 - hair_ / length : 0;
+        places_.row(i) = (rest_.row(i) + share * way).unaryExpr(&grained);
+    }
+}
 
 void PosedVertices::pose(const Nodes& posed) {
     if (posed.rows() != places_.rows()) {
@@ -32,7 +43,7 @@ void PosedVertices::pose(const Nodes& posed) {
                                     std::to_string(places_.rows()));
     }
     if (!posed.allFinite()) throw std::invalid_argument("a pose with places that are not finite");
-    places_ = posed.unaryExpr(&grained);
+    place(posed);
     node_normals_.compute(places_, normals_);
     mouth_light_.compute(places_, normals_, light_);
     for (Eigen::Index i = 0; i < places_.rows(); ++i) {

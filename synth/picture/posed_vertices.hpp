@@ -6,6 +6,7 @@
 
 #include "synth/picture/mouth_light.hpp"
 #include "synth/picture/surface_frame.hpp"
+#include "synth/picture/view.hpp"
 
 namespace viaface {
 
@@ -18,7 +19,7 @@ struct Vertex {
 
 class PosedVertices {
   public:
-    PosedVertices(const Face& face, const Eigen::Matrix4d& clip_from_head, int width, int height);
+    PosedVertices(const Face& face, const View& view, const Eigen::Matrix4d& clip_from_head);
 
     void pose(const Nodes& posed);
     std::span<const Vertex> vertices() const { return vertices_; }
@@ -33,6 +34,10 @@ class PosedVertices {
     const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }
 
   private:
+    void place(const Nodes& posed);
+
+    Nodes rest_;
+    double hair_;  // mm
     NodeNormals node_normals_;
     MouthLight mouth_light_;
     Eigen::Matrix4f clip_from_head_;

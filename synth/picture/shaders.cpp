@@ -36,7 +36,7 @@ in vec3 N, T, B, V;
 in vec2 st;
 in float lit;
 out vec4 colour;
-uniform sampler2D base_texture, shade_texture, normal_texture;
+uniform sampler2D base_texture, detail_texture;
 const vec3 key = vec3(-0.492, 0.555, 0.671), fill = vec3(0.768, 0.144, 0.624), rim = vec3(0.640, 0.427, -0.640);
 const vec3 key_light = vec3(1.75, 1.58, 1.40), fill_light = vec3(0.26, 0.30, 0.37), rim_light = vec3(1.0, 1.05, 1.2);
 vec3 linear(vec3 c) { return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878); }
@@ -57,39 +57,38 @@ vec3 filmic(vec3 c) {
 
 constexpr const char* kSkin = R"(
 vec3 shade() {
-    vec3 albedo = linear(texture(base_texture, st).rgb);
-    vec4 s = texture(shade_texture, st);
-    vec2 bump = texture(normal_texture, st).xy * (255.0 / 127.0) - 128.0 / 127.0;
+    vec4 base = texture(base_texture, st), s = texture(detail_texture, st);
+    vec3 albedo = linear(base.rgb);
+    vec2 bump = s.xy * (255.0 / 127.0) - 128.0 / 127.0;
     vec3 smooth_n = normalize(N), n = normalize(smooth_n + T * bump.x + B * bump.y);
-    float shadow = s.a, occlusion = s.r * lit;
+    float occlusion = base.a * lit;
     const vec3 soft = vec3(0.75, 0.42, 0.25), wrap = vec3(0.27, 0.15, 0.09);
     vec3 at_key = max((mix(vec3(dot(n, key)), vec3(dot(smooth_n, key)), soft) + wrap) / (1 + wrap), 0);
     vec3 at_fill = max((dot(n, fill) + wrap) / (1 + wrap), 0);
     vec3 at_rim = max((dot(n, rim) + 1.6 * wrap) / (1 + 1.6 * wrap), 0);
-    vec3 shadow3 = shadow + vec3(0.30, 0.06, 0.0) * shadow * (1 - shadow);
     vec3 open = occlusion + vec3(0.22, 0.02, -0.06) * occlusion * (1 - occlusion);
-    vec3 light = key_light * at_key * shadow3 * lit + fill_light * at_fill * open +
+    vec3 light = key_light * at_key * lit + fill_light * at_fill * open +
                  rim_light * at_rim * open * 0.75 + sky(smooth_n.y) * open * 1.25 +
-                 s.b * vec3(0.10, 0.025, 0.01);
+                 s.w * vec3(0.10, 0.025, 0.01);
     vec3 h = normalize(key + V);
-    float nh = max(dot(n, h), 0), vh = dot(V, h), nl = max(dot(n, key), 0), a = s.g * s.g;
+    float nh = max(dot(n, h), 0), vh = dot(V, h), nl = max(dot(n, key), 0), a = s.z * s.z;
     float oil = (0.75 * lobe(nh, a) + 0.25 * lobe(nh, a * 0.4)) * fresnel(vh) * nl / (4 * vh * vh + 0.1);
     float grazing = 1 - max(dot(n, V), 0), g2 = grazing * grazing;
-    vec3 gloss = key_light * oil * shadow * occlusion + sky(n.y) * (0.02 + 0.22 * g2 * g2 * grazing) * occlusion;
+    vec3 gloss = key_light * oil * occlusion + sky(n.y) * (0.02 + 0.22 * g2 * g2 * grazing) * occlusion;
     return albedo * light * 0.40 + gloss;
 }
 )";
 
 constexpr const char* kInside = R"(
 vec3 shade() {
-    vec3 albedo = linear(texture(base_texture, st).rgb);
-    vec4 s = texture(shade_texture, st);
+    vec4 base = texture(base_texture, st), s = texture(detail_texture, st);
+    vec3 albedo = linear(base.rgb);
     vec3 n = normalize(N);
-    float at_key = max((dot(n, key) + 0.4) / 1.4, 0), open = s.r * (0.16 + 0.84 * lit);
+    float at_key = max((dot(n, key) + 0.4) / 1.4, 0), open = base.a * (0.16 + 0.84 * lit);
     vec3 light = key_light * at_key * 0.75 + fill_light * max(dot(n, fill) + 0.3, 0) + sky(n.y) * 2.4;
     vec3 h = normalize(key + V);
     float vh = dot(V, h), nl = max(dot(n, key), 0);
-    float wet = lobe(max(dot(n, h), 0), s.g * s.g) * fresnel(vh) * nl / (4 * vh * vh + 0.1);
+    float wet = lobe(max(dot(n, h), 0), s.z * s.z) * fresnel(vh) * nl / (4 * vh * vh + 0.1);
     vec3 deep = open + vec3(0.25, 0.02, 0.02) * open * (1 - open);
     return albedo * light * deep * 0.42 + key_light * wet * open * open * 0.9;
 }
@@ -97,25 +96,25 @@ vec3 shade() {
 
 constexpr const char* kEye = R"(
 vec3 shade() {
-    vec3 albedo = linear(texture(base_texture, st).rgb);
-    vec4 s = texture(shade_texture, st);
-    vec2 bump = texture(normal_texture, st).xy * (255.0 / 127.0) - 128.0 / 127.0;
+    vec4 base = texture(base_texture, st), s = texture(detail_texture, st);
+    vec3 albedo = linear(base.rgb);
+    vec2 bump = s.xy * (255.0 / 127.0) - 128.0 / 127.0;
     vec3 ball = normalize(N), n = normalize(ball + T * bump.x + B * bump.y);
     float at_key = max((dot(ball, key) + 0.25) / 1.25, 0);
-    vec3 light = key_light * at_key * mix(0.35, 1.0, s.a) + fill_light * max(dot(ball, fill) + 0.2, 0) + sky(ball.y) * 2.6;
+    vec3 light = key_light * at_key + fill_light * max(dot(ball, fill) + 0.2, 0) + sky(ball.y) * 2.6;
     vec3 h = normalize(key + V), r = reflect(-V, n);
-    float spot = min(lobe(max(dot(n, h), 0), 0.012) * 0.03, 2.0) * mix(0.5, 1.0, s.a);
+    float spot = min(lobe(max(dot(n, h), 0), 0.012) * 0.03, 2.0);
     vec3 glow = sky(r.y) * 0.10;
-    return albedo * light * 0.32 * s.r + key_light * spot * s.r + glow * s.r;
+    return (albedo * light * 0.32 + key_light * spot + glow) * base.a;
 }
 )";
 
 constexpr const char* kCloth = R"(
 vec3 shade() {
-    vec3 albedo = linear(texture(base_texture, st).rgb);
-    vec4 s = texture(shade_texture, st);
+    vec4 base = texture(base_texture, st), s = texture(detail_texture, st);
+    vec3 albedo = linear(base.rgb);
     vec3 n = normalize(N);
-    vec3 light = key_light * max(dot(n, key), 0) * s.a + fill_light * max(dot(n, fill), 0) + sky(n.y) * s.r * 2.2;
+    vec3 light = key_light * max(dot(n, key), 0) * base.a + fill_light * max(dot(n, fill), 0) + sky(n.y) * base.a * 2.2;
     float edge = 1 - max(dot(n, V), 0);
     return albedo * light * (0.9 + 0.8 * edge * edge) + 0.02 * rim_light * max(dot(n, rim), 0);
 }

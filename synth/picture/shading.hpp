@@ -22,6 +22,8 @@ enum VertexAttribute : GLuint {
     kTangentAttribute
 };
 
+bool two_sided(Material material);
+
 class Shading {
   public:
     Shading(const Face& face, const View& view, const Camera& camera);
@@ -32,7 +34,7 @@ class Shading {
   private:
     struct Bound {
         const Program* program = nullptr;
-        GLuint base = 0, shade = 0, normal = 0;
+        GLuint base = 0, detail = 0;
     };
 
     std::vector<Program> programs_;

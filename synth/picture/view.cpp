@@ -1,6 +1,7 @@
 #include "synth/picture/view.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -113,5 +114,7 @@ Camera camera_of(const View& view) {
             look_at(place, target),
         place};
 }
+
+double pixel_size(const View& view) { return kShown / std::min(view.width, view.height); }
 
 }  // namespace viaface

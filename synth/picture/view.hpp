@@ -40,4 +40,7 @@ struct Camera {
 };
 Camera camera_of(const View& view);
 
+// Size of a pixel in the middle of the head, mm.
+double pixel_size(const View& view);
+
 }  // namespace viaface
