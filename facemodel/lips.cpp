@@ -21,11 +21,13 @@ double drawn_gap(double asked) {
 
 int at(int row, int column) { return row * kColumns + (column + kColumns) % kColumns; }
 
-// 0 at the border, 1 from `full` on inwards.
-double hold(int row, int full) {
-    const double t = std::clamp(static_cast<double>(row) / full, 0.0, 1.0);
+double smooth(double t) {
+    t = std::clamp(t, 0.0, 1.0);
     return t * t * (3 - 2 * t);
 }
+
+// 0 at the border, 1 from `full` on inwards.
+double hold(int row, int full) { return smooth(static_cast<double>(row) / full); }
 
 // The lips' meeting height over x: midway between the inner contours, level beyond the corners.
 struct MeetingLine {
@@ -95,6 +97,8 @@ std::vector<Triangle> lip_triangles(const LipGrid& grid) {
 
 void keep_off_teeth(Nodes& rows, const TeethFront& teeth) {
     constexpr int kFirstRow = 4;
+    constexpr double kFrontHalf = 9, kFade = 6;  // mm from the middle: in full, then less and less
+    constexpr double kHighest = 6;               // mm past the edge; what is farther was never beyond it
     constexpr double kEdgeFirst = 3;  // the other lip comes from beyond the edge and stops there rather
     for (int c = 0; c < kColumns; ++c) {
         for (int r = kFirstRow; r < kRows; ++r) {
@@ -102,11 +106,12 @@ void keep_off_teeth(Nodes& rows, const TeethFront& teeth) {
             const double into = teeth.z(node.x()) - node.z();            // behind the front, mm
             const double over = teeth.side * (node.y() - teeth.edge_y);  // past the edge, mm
             if (into <= 0 || over <= 0) continue;
-            const bool own = upper_lip(c) == (teeth.side > 0);
-            if (into * (own ? 1 : kEdgeFirst) < over) {
-                node.z() += into;
+            const bool other = upper_lip(c) != (teeth.side > 0);
+            const double front = 1 - smooth((std::abs(node.x()) - kFrontHalf) / kFade);
+            if (other && into * kEdgeFirst > over && over < kHighest) {
+                node.y() -= teeth.side * front * over;
             } else {
-                node.y() = teeth.edge_y;
+                node.z() += front * into;
             }
         }
     }

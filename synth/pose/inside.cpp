@@ -68,7 +68,8 @@ Nodes MouthLining::rest(const Contour& inner) {
         const Vector3d edge = inner.row(c), behind = on_ring(kLiningRings[3], c);
         const double s = std::sin(angle_of(c));
         nodes.row(c) = edge;
-        nodes.row(kColumns + c) = (edge + Vector3d(0, 0.5 * s, -1.2)).transpose();
+        // Behind closed lips the lining of one reaches past the other's: no tooth shines through the seam.
+        nodes.row(kColumns + c) = (edge + Vector3d(0, -0.25 * s, -1.2)).transpose();
         nodes.row(2 * kColumns + c) = (0.6 * edge + 0.4 * behind + Vector3d(0, 0, -0.8)).transpose();
         for (int r = 3; r < kRings; ++r) {
             nodes.row(r * kColumns + c) = on_ring(kLiningRings[static_cast<std::size_t>(r)], c).transpose();

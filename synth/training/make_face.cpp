@@ -49,9 +49,8 @@ Uvs lip_uvs() {
     return uvs;
 }
 
-// u runs once round the lips; the triangles of the last column close on column 0 at u = 1, which glTF's
-// repeating textures take for 0 only if the nodes differ. The renderer and other viewers see a mirrored
-// sliver instead, so u goes up one side and down the other.
+// A ring's u goes up one side and down the other, 0 at column 0 and 1 half way round, so that no triangle
+// spans the whole texture where the ring closes.
 void fold_round(Uvs& uvs, int columns, int rows) {
     for (int i = 0; i < columns * rows; ++i) {
         const double u = static_cast<double>(i % columns) / columns;
