@@ -1,5 +1,4 @@
-// The shader sources. Each material's program is kVertexShader with kFragmentHead + the material's own
-// `vec3 shade()`, + kFragmentTail.
+// The shader sources: one vertex shader, and for each material a fragment shader of its own.
 #pragma once
 
 #include <string>

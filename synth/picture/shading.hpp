@@ -1,8 +1,11 @@
 // How each material answers to light: the shader programs, the textures they read and the lights, which stand
-// with the camera. Linear light in, sRGB out through a filmic curve (J. Hejl and R. Burgess-Dawson, "Filmic
-// tone mapping for real-time rendering", SIGGRAPH 2010 course). Skin: normals blurred and wrapped per
-// channel stand for light that travels under it (C. de Mesa et al. and A. Gritz's wrapped diffuse; J. Jimenez
-// and D. Gutierrez, GPU Pro, 2010, for the look aimed at), two GGX lobes for its oil.
+// with the camera. Linear light in, sRGB out through a filmic curve (J. Hejl and R. Burgess-Dawson's, in
+// H.-P. Duiker, "Filmic tonemapping for real-time rendering", SIGGRAPH 2010 course). Light that travels under
+// the skin is stood in for by diffuse light wrapped round per channel (S. Green, "Real-time approximations to
+// subsurface scattering", GPU Gems, 2004) on a smoother normal for red than for blue (W.-C. Ma et al., "Rapid
+// acquisition of specular and diffuse normal maps", EGSR 2007); two GGX lobes are its oil. Departure: no
+// light casts a shadow; what the head keeps off itself at rest is in the textures' occlusion, the rest in
+// MouthLight.
 #pragma once
 
 #include <array>
