@@ -34,8 +34,8 @@ double number(const std::string& cell) {
     } catch (const std::exception&) {
         used = 0;
     }
-    if (used == 0 || cell.find_first_not_of(" \r", used) != std::string::npos || !std::isfinite(value)) {
-        throw InputError("recording", cell, "a number");
+    if (used == 0 || cell.find_first_not_of(" \r", used) != std::string::npos || !(std::abs(value) <= 1e6)) {
+        throw InputError("recording", cell, "a number up to 1e6");
     }
     return value;
 }
