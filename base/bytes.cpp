@@ -46,8 +46,8 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
     return crc ^ 0xffffffffu;
 }
 
-std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t seed) {
-    std::uint64_t hash = seed;
+std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t so_far) {
+    std::uint64_t hash = so_far;
     for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
     return hash;
 }

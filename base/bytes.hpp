@@ -54,7 +54,8 @@ class ByteReader {
 // CRC-32 of ISO 3309 (zlib's, PNG's).
 std::uint32_t crc32(std::span<const std::uint8_t> bytes);
 
-// FNV-1a, 64 bits: names a result in reports; not for security.
-std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t seed = 14695981039346656037ull);
+// FNV-1a, 64 bits: names a result in reports; not for security. Chain calls by passing the last result on.
+inline constexpr std::uint64_t kFnvStart = 14695981039346656037ull;
+std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t so_far = kFnvStart);
 
 }  // namespace viaface

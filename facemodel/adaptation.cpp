@@ -21,7 +21,7 @@ constexpr std::array<int, 2> kGuides[] = {
 
 std::vector<MorphLine> lines_of(const FeaturePoints& features) {
     std::vector<MorphLine> lines;
-    for (const Contour& contour : feature_contours()) {
+    for (const FeatureContour& contour : feature_contours()) {
         const Flat nodes = contour_nodes(contour, features);
         const Eigen::Index n = nodes.rows();
         for (Eigen::Index i = 0; i < (contour.closed ? n : n - 1); ++i) {

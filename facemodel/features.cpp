@@ -79,8 +79,8 @@ std::vector<int> counted(int first, int last) {
     return all;
 }
 
-Contour outline() {
-    Contour contour{"outline", counted(0, 16), std::vector<int>(16, 2), true};
+FeatureContour outline() {
+    FeatureContour contour{"outline", counted(0, 16), std::vector<int>(16, 2), true};
     for (int i = 0; i < kForehead; ++i) contour.through.push_back(kFirstForehead + i);
     contour.steps.insert(contour.steps.end(), {3, 3, 4, 4, 3, 3});
     return contour;
@@ -92,7 +92,7 @@ Vector2d catmull_rom(const std::array<Vector2d, 4>& p, double t) {
 }
 
 // Before the first and after the last point of an open contour: the point itself, reflected.
-Vector2d control(const Contour& contour, const FeaturePoints& points, int i) {
+Vector2d control(const FeatureContour& contour, const FeaturePoints& points, int i) {
     const int n = static_cast<int>(contour.through.size());
     const auto at = [&](int k) -> Vector2d { return points.row(contour.through[k]); };
     if (contour.closed) return at((i + n) % n);
@@ -136,8 +136,8 @@ FeaturePoints generic_features() {
     return points;
 }
 
-const std::vector<Contour>& feature_contours() {
-    static const std::vector<Contour> contours = {
+const std::vector<FeatureContour>& feature_contours() {
+    static const std::vector<FeatureContour> contours = {
         outline(),
         {"mouth", counted(kFirstMarker, kFirstMarker + 7), std::vector<int>(8, 5), true},
         {"eye_right", counted(36, 41), {3, 4, 3, 3, 4, 3}, true},
@@ -147,7 +147,7 @@ const std::vector<Contour>& feature_contours() {
     return contours;
 }
 
-Flat contour_nodes(const Contour& contour, const FeaturePoints& points) {
+Flat contour_nodes(const FeatureContour& contour, const FeaturePoints& points) {
     const int total = std::accumulate(contour.steps.begin(), contour.steps.end(), contour.closed ? 0 : 1);
     Flat nodes(total, 2);
     int next = 0;

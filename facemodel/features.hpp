@@ -26,17 +26,17 @@ FeaturePoints unrolled_features(const Cylinder& cylinder, const Nodes& landmarks
 // The proportions of the generic mesh: an average face in round figures, the same left and right.
 FeaturePoints generic_features();
 
-struct Contour {
+struct FeatureContour {
     std::string name;
     std::vector<int> through;  // feature points
     std::vector<int> steps;    // nodes per span; a closed contour has as many spans as points
     bool closed = false;
 };
 // Those that bound the mesh come first: the outline (jaw line and forehead), mouth, eyes; then the nose.
-const std::vector<Contour>& feature_contours();
+const std::vector<FeatureContour>& feature_contours();
 inline constexpr int kBoundaries = 4, kOutline = 0, kMouthContour = 1;
 
 // The nodes on a contour, in order; feature points among them are exact. [steps x 2]; one more when open.
-Flat contour_nodes(const Contour& contour, const FeaturePoints& points);
+Flat contour_nodes(const FeatureContour& contour, const FeaturePoints& points);
 
 }  // namespace viaface

@@ -68,7 +68,7 @@ struct Plan {
 
 Plan make_plan(const FeaturePoints& features) {
     Plan plan;
-    for (const Contour& contour : feature_contours()) {
+    for (const FeatureContour& contour : feature_contours()) {
         plan.contours.push_back(rows_of(contour_nodes(contour, features)));
     }
     return plan;

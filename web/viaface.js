@@ -94,7 +94,7 @@ async function speak(event) {
   try {
     track = await (await post("/v1/viapoints", said)).json();
     $("result").hidden = false;
-    await play(await post("/v1/videos", { ...said, yaw: Number($("view").value) }));
+    await play(await post("/v1/videos", { ...said, view: { yaw: Number($("view").value) } }));
     $("message").textContent = "";
   } catch (error) {
     $("message").className = "error";

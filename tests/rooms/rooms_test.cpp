@@ -19,19 +19,14 @@ const std::map<std::string, Names> kMayInclude = {
     {"facemodel", {"base", "facemodel"}},
     {"lipmodel", {"base", "lipmodel", "facemodel/mesh.hpp"}},
     {"synth", {"base", "viapoints", "facemodel", "lipmodel", "synth"}},
-    {"server", {"base", "viapoints", "facemodel", "synth", "server"}},
+    {"server", {"base", "viapoints", "facemodel", "synth", "server", "web/web_files.hpp"}},
 };
 
 // Vendor header (prefix) -> the folders it may appear in.
 const std::map<std::string, Names> kVendorRooms = {
-    {"flite", {"synth/speech"}},
-    {"libav", {"synth/film"}},
-    {"libsw", {"synth/film"}},
-    {"GL/", {"synth/picture"}},
-    {"glm/", {"synth/picture"}},
-    {"png.h", {"facemodel"}},
-    {"httplib", {"server"}},
-    {"CLI/", {"server"}},
+    {"flite", {"synth/speech"}}, {"libav", {"synth/film"}},   {"libsw", {"synth/film"}},
+    {"GL/", {"synth/picture"}},  {"glm/", {"synth/picture"}}, {"png.h", {"facemodel"}},
+    {"httplib", {"server"}},     {"CLI/", {"server"}},
 };
 
 struct Include {

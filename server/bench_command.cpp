@@ -1,0 +1,181 @@
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "server/commands.hpp"
+#include "server/requests.hpp"
+#include "synth/picture/portrait.hpp"
+#include "synth/pose/blinks.hpp"
+#include "synth/talker/talker_shelf.hpp"
+
+namespace viaface {
+namespace {
+
+constexpr const char* kText = "The old man put five apples in a basket and walked slowly down to the river.";
+
+double seconds_of(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void print_stage(const char* name, double seconds, double spoken_s, std::size_t frames) {
+    std::printf("%-34s %9.2f ms %9.3f ms/frame %9.1f x real time\n", name, seconds * 1e3,
+                seconds * 1e3 / static_cast<double>(frames), spoken_s / seconds);
+}
+
+double peak_resident_mb() {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    double kilobytes = 0;
+    while (status >> word) {
+        if (word == "VmHWM:") status >> kilobytes;
+    }
+    return kilobytes / 1024;
+}
+
+FilmSink discarding() {
+    return [](std::span<const std::uint8_t>) { return true; };
+}
+
+class Bench {
+  public:
+    Bench(const VideoRequest& request)
+        : request_(request), spec_{request.say.view.width, request.say.view.height, request.say.fps} {
+        request_.say.speech.text = kText;
+    }
+
+    void run() {
+        print_stage_free("load the talker",
+                         seconds_of([&] { talker_ = TalkerShelf(talkers_folder()).load(request_.talker); }));
+        speak_and_recite();
+        pose_and_draw();
+        const double encoding = encode_alone();
+        whole(encoding);
+        std::printf("%-34s %9.1f MB\n", "peak resident set (frames held)", peak_resident_mb());
+    }
+
+  private:
+    static void print_stage_free(const char* name, double seconds) {
+        std::printf("%-34s %9.2f ms\n", name, seconds * 1e3);
+    }
+
+    void speak_and_recite() {
+        const Script script(request_.say.speech);
+        Utterance said;
+        const double speaking = seconds_of([&] { said = script.utterance(0); });
+        spoken_s_ = said.sound.seconds();
+        sound_ = said.sound.samples;
+        std::optional<Recital> recital;
+        const double reciting = seconds_of([&] { recital.emplace(recite(talker_->codex, std::move(said))); });
+        const std::int64_t frames =
+            frames_for(static_cast<std::int64_t>(sound_.size()), spec_.sample_rate, spec_.fps);
+        for (std::int64_t n = 0; n < frames; ++n) {
+            times_.push_back(static_cast<double>(n * spec_.fps.denominator) / spec_.fps.numerator);
+        }
+        const double evaluating = seconds_of([&] { motion_ = recital->motion.at(times_); });
+        print_stage("speech", speaking, spoken_s_, times_.size());
+        print_stage("units, via points, spline", reciting, spoken_s_, times_.size());
+        print_stage("spline at frame times", evaluating, spoken_s_, times_.size());
+    }
+
+    void pose_and_draw() {
+        const BlinkSchedule blinks(spoken_s_, request_.say.seed);
+        std::vector<Nodes> posed;
+        const double posing = seconds_of([&] {
+            for (std::size_t n = 0; n < times_.size(); ++n) {
+                const double shut = blinks.amount(times_[n]);
+                posed.push_back(talker_->poser.posed(motion_.row(static_cast<Eigen::Index>(n)).transpose(),
+                                                     {shut, shut}));
+            }
+        });
+        print_stage("pose", posing, spoken_s_, times_.size());
+        std::optional<Portrait> portrait;
+        print_stage_free("set up the picture", seconds_of([&] {
+                             portrait.emplace(talker_->face, request_.say.view);
+                             portrait->draw(posed.front());
+                         }));
+        const double all = seconds_of([&] {
+            for (const Nodes& nodes : posed) portrait->draw(nodes, Portrait::Redraw::kAll);
+        });
+        print_stage("draw, every frame whole", all, spoken_s_, times_.size());
+        const double changed = seconds_of([&] {
+            for (const Nodes& nodes : posed) keep(portrait->draw(nodes));
+        });
+        print_stage("draw, what moved (and copy)", changed, spoken_s_, times_.size());
+    }
+
+    void keep(const FrameView& view) {
+        Frame frame{view.width, view.height, {}};
+        for (int row = 0; row < view.height; ++row) {
+            const std::uint8_t* from = view.top_row + row * view.stride;
+            frame.rgba.insert(frame.rgba.end(), from, from + 4 * view.width);
+        }
+        frames_.push_back(std::move(frame));
+    }
+
+    double encode_alone() {
+        const double seconds = seconds_of([&] {
+            const auto film = open_film(spec_, discarding());
+            film->add_sound(sound_);
+            for (const Frame& frame : frames_) film->add_frame(view(frame));
+            film->finish();
+        });
+        print_stage("encode the same frames alone", seconds, spoken_s_, times_.size());
+        return seconds;
+    }
+
+    void whole(double encoding) {
+        double first_fragment = 0;
+        const auto start = std::chrono::steady_clock::now();
+        const auto sink = [&](std::span<const std::uint8_t> piece) {
+            const std::string_view text(reinterpret_cast<const char*>(piece.data()), piece.size());
+            if (first_fragment == 0 && text.find("moof") != std::string_view::npos) {
+                first_fragment =
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            }
+            return true;
+        };
+        const double seconds = seconds_of([&] { say(request_.say, *talker_, *open_film(spec_, sink)); });
+        print_stage("the whole, streamed", seconds, spoken_s_, times_.size());
+        print_stage_free("first fragment after", first_fragment);
+        std::printf("%-34s %9.2f\n", "the whole / encoding alone", seconds / encoding);
+    }
+
+    VideoRequest request_;
+    FilmSpec spec_;
+    std::shared_ptr<const Talker> talker_;
+    double spoken_s_ = 0;
+    std::vector<std::int16_t> sound_;
+    std::vector<double> times_;
+    RowMatrix motion_;
+    std::vector<Frame> frames_;
+};
+
+}  // namespace
+
+Command add_bench(CLI::App& program) {
+    struct Options {
+        VideoRequest request;
+        std::string size = "512x512";
+        double fps = 30;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* app = program.add_subcommand(
+        "bench",
+        "Times the stages on one sentence: real-time factors, and the whole against encoding alone.");
+    app->add_option("--talker", options->request.talker, "a built-in talker's name")->capture_default_str();
+    app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app->add_option("--fps", options->fps, "frames per second")->capture_default_str();
+    return [options] {
+        set_size(options->request.say.view, options->size);
+        options->request.say.fps = frame_rate(options->fps);
+        check(options->request.say.view);
+        Bench(options->request).run();
+        return 0;
+    };
+}
+
+}  // namespace viaface

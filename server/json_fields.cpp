@@ -1,0 +1,68 @@
+#include "server/json_fields.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace viaface {
+namespace {
+
+std::string shown(const nlohmann::json& value) {
+    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+JsonFields::JsonFields(const nlohmann::json& object, std::string path)
+    : object_(object), path_(std::move(path)) {
+    if (!object.is_object()) throw InputError(path_.empty() ? "body" : path_, shown(object), "a JSON object");
+}
+
+const nlohmann::json* JsonFields::find(const std::string& name) {
+    asked_.push_back(name);
+    const auto found = object_.find(name);
+    return found == object_.end() ? nullptr : &*found;
+}
+
+void JsonFields::refuse(const std::string& name, const std::string& allowed) const {
+    throw InputError(path_of(name), shown(object_.at(name)), allowed);
+}
+
+std::optional<std::string> JsonFields::text(const std::string& name) {
+    const auto* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_string()) refuse(name, "a string");
+    return value->get<std::string>();
+}
+
+std::optional<double> JsonFields::number(const std::string& name) {
+    const auto* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_number()) refuse(name, "a number");
+    return value->get<double>();
+}
+
+std::optional<std::uint64_t> JsonFields::whole_number(const std::string& name) {
+    const auto* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_number_unsigned()) refuse(name, "a whole number from 0");
+    return value->get<std::uint64_t>();
+}
+
+std::optional<nlohmann::json> JsonFields::object(const std::string& name) {
+    const auto* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_object()) refuse(name, "a JSON object");
+    return *value;
+}
+
+void JsonFields::refuse_unknown() const {
+    for (const auto& [name, value] : object_.items()) {
+        if (std::find(asked_.begin(), asked_.end(), name) != asked_.end()) continue;
+        std::string known;
+        for (const auto& field : asked_) known += (known.empty() ? "" : ", ") + field;
+        throw InputError(path_of(name), shown(value), "only the fields " + known);
+    }
+}
+
+}  // namespace viaface

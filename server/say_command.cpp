@@ -1,0 +1,187 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <iterator>
+
+#include "base/error.hpp"
+#include "base/whole_file.hpp"
+#include "server/commands.hpp"
+#include "server/requests.hpp"
+#include "synth/say/report_json.hpp"
+#include "synth/speech/text_grid.hpp"
+#include "synth/talker/talker_shelf.hpp"
+#include "viapoints/motion_csv.hpp"
+
+namespace viaface {
+namespace {
+
+struct SayOptions {
+    VideoRequest request;
+    std::string size = "512x512", background, output = "talk.mp4";
+    double fps = 30;
+    std::string labels, motion, commanded, json;
+    bool quiet = false;
+};
+
+bool write_to_stdout(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+std::unique_ptr<FilmWriter> film_for(const SayOptions& options) {
+    const View& view = options.request.say.view;
+    FilmSpec spec{view.width, view.height, options.request.say.fps};
+    if (options.output == "-") return open_film(spec, write_to_stdout);
+    spec.format = film_format_of(options.output);
+    return open_film(spec, std::filesystem::path(options.output));
+}
+
+std::shared_ptr<const Talker> talker_at(const std::string& name) {
+    const bool folder = name.find('/') != std::string::npos;
+    if (folder) return std::make_shared<const Talker>(load_talker(name));
+    return TalkerShelf(talkers_folder()).load(name);
+}
+
+// Frames as rows of a motion file, to a ten-thousandth of a mm.
+class MotionRows {
+  public:
+    void add(double time_s, const Configuration& points) {
+        time_s_.push_back(time_s);
+        for (const double mm : points) mm_.push_back(std::round(mm * 1e4) / 1e4);
+    }
+    void write(const std::string& path, const std::string& what) const {
+        const auto rows = static_cast<Eigen::Index>(time_s_.size());
+        const Motion motion{time_s_, Eigen::Map<const RowMatrix>(mm_.data(), rows, kCoordinates)};
+        write_motion_csv(path, motion, {what, "mm, head frame: x to the talker's left, y up, z forward"});
+    }
+
+  private:
+    std::vector<double> time_s_, mm_;
+};
+
+// What goes beside the film.
+class SideFiles {
+  public:
+    explicit SideFiles(const SayOptions& options) : options_(options) {}
+
+    void add(const DrawnFrame& frame) {
+        if (!options_.motion.empty()) drawn_.add(frame.time_s, frame.drawn);
+        if (!options_.commanded.empty()) commanded_.add(frame.time_s, frame.commanded);
+    }
+
+    void add(const Recital& recital, std::int64_t first_sample) {
+        timeline_.add(recital, first_sample);
+        append_to(labels_, recital.utterance, first_sample);
+    }
+
+    void write(const SayReport& report) const {
+        if (!options_.motion.empty())
+            drawn_.write(options_.motion, "points as drawn, read off the posed mesh after contact");
+        if (!options_.commanded.empty())
+            commanded_.write(options_.commanded, "points as commanded by the spline");
+        if (!options_.labels.empty())
+            write_whole(options_.labels, std::string_view(write_text_grid(labels_)));
+        if (options_.json.empty()) return;
+        const auto json = report_json(options_.request.say, options_.request.talker, timeline_, report);
+        const std::string text = json.dump(2) + "\n";
+        if (options_.json == "-") {
+            std::cout << text << std::flush;
+        } else {
+            write_whole(options_.json, std::string_view(text));
+        }
+    }
+
+  private:
+    const SayOptions& options_;
+    MotionRows drawn_, commanded_;
+    Timeline timeline_;
+    TextGrid labels_;
+};
+
+void show_progress(double share) {
+    std::fprintf(stderr, "\rviaface: %3.0f%% drawn%s", std::floor(share * 100), share >= 1 ? "\n" : "");
+}
+
+void complete(SayOptions& options) {
+    SayRequest& say_request = options.request.say;
+    set_size(say_request.view, options.size);
+    if (!options.background.empty()) say_request.view.background = parse_background(options.background);
+    say_request.fps = frame_rate(options.fps);
+    check(say_request.view);
+    if (options.output == "-" && options.json == "-") {
+        throw InputError("--json", "-", "a file, when the film goes to stdout");
+    }
+    if (say_request.speech.text == "-") {
+        say_request.speech.text.assign(std::istreambuf_iterator<char>(std::cin), {});
+    }
+}
+
+int run_say(SayOptions& options) {
+    complete(options);
+    const Script checked(options.request.say.speech);
+    const auto talker = talker_at(options.request.talker);
+    const auto film = film_for(options);
+    SideFiles beside(options);
+    Onlookers onlookers;
+    onlookers.frame = [&](const DrawnFrame& frame) { beside.add(frame); };
+    onlookers.recital = [&](const Recital& recital, std::int64_t first_sample) {
+        beside.add(recital, first_sample);
+    };
+    if (!options.quiet && isatty(STDERR_FILENO) != 0) onlookers.progress = show_progress;
+    const SayReport report = say(options.request.say, *talker, *film, onlookers);
+    beside.write(report);
+    return 0;
+}
+
+}  // namespace
+
+Command add_say(CLI::App& program) {
+    auto options = std::make_shared<SayOptions>();
+    CLI::App* app = program.add_subcommand("say", "Text in, a talking-face video out.");
+    SpeechRequest& speech = options->request.say.speech;
+    View& view = options->request.say.view;
+    app->add_option("text", speech.text,
+                    "what to say, English, up to 20000 bytes of UTF-8; - reads it from stdin");
+    app->add_option("--phones", speech.phones,
+                    "instead of text: ARPAbet phones with optional ms, for example \"ax b:90 aa1:220\"");
+    app->add_option("-o,--output", options->output,
+                    "x.mp4, lossless x.mkv, a folder for PNG files, or - for fragmented MP4 on stdout")
+        ->capture_default_str();
+    app->add_option("--voice", speech.voice, "rms, slt, awb or kal16")->capture_default_str();
+    app->add_option("--rate", speech.prosody.rate, "speaking rate, 0.5 to 2 times the voice's own")
+        ->capture_default_str();
+    app->add_option("--pitch", speech.prosody.pitch, "pitch, 0.5 to 2 times the voice's own")
+        ->capture_default_str();
+    app->add_option("--talker", options->request.talker,
+                    "a built-in talker's name, or a talker's folder (with a / in it)")
+        ->capture_default_str();
+    app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels, 16 to 4096 each; even for mp4")
+        ->capture_default_str();
+    app->add_option("--fps", options->fps, "frames per second, 15 to 120")->capture_default_str();
+    app->add_option("--yaw", view.yaw, "degrees towards the talker's left, -180 to 180");
+    app->add_option("--tilt", view.tilt, "degrees, the chin lifted, -180 to 180");
+    app->add_option("--roll", view.roll, "degrees counter-clockwise in the picture, -180 to 180");
+    app->add_option("--background", options->background,
+                    "#rrggbb, black, white, grey, green or blue; a soft grey when absent");
+    app->add_option("--seed", options->request.say.seed, "of the blinks")->capture_default_str();
+    app->add_option("--labels", options->labels, "write words and phones as a Praat TextGrid");
+    app->add_option("--motion", options->motion,
+                    "write the points as drawn (CSV, mm), read off the posed mesh after contact");
+    app->add_option("--commanded", options->commanded,
+                    "write the points as commanded by the spline (CSV, mm)");
+    app->add_option(
+        "--json", options->json,
+        "write a report: timeline, durations, units used, drawn against commanded, hashes; - for stdout");
+    app->add_flag("--quiet", options->quiet, "no progress on stderr");
+    return [options] { return run_say(*options); };
+}
+
+}  // namespace viaface

@@ -1,0 +1,74 @@
+// The page in a real browser: a click on Speak, and a video that plays with sound while the labels move.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "server/service.hpp"
+#include "tests/web/web_driver.hpp"
+
+namespace viaface {
+namespace {
+
+class Page : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!WebDriver::installed()) GTEST_SKIP() << "chromium and chromium-driver are not installed";
+        ServiceOptions options;
+        options.port = 0;
+        options.talkers = std::string(VIAFACE_SOURCE_DIR) + "/talkers";
+        service_ = std::make_unique<Service>(options);
+        listening_ = std::thread([this] { service_->listen(); });
+        browser_ = std::make_unique<WebDriver>();
+        browser_->open("http://127.0.0.1:" + std::to_string(service_->port()) + "/");
+    }
+    void TearDown() override {
+        browser_.reset();
+        if (!service_) return;
+        service_->stop();
+        listening_.join();
+    }
+
+    std::unique_ptr<Service> service_;
+    std::thread listening_;
+    std::unique_ptr<WebDriver> browser_;
+};
+
+TEST_F(Page, AClickSpeaksAndTheVideoPlaysWithSound) {
+    WebDriver& browser = *browser_;
+    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
+    browser.click("#speak");
+    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.5", 60))
+        << browser.run("return document.querySelector('#message').textContent;");
+    EXPECT_EQ(browser.run("return document.querySelector('#video').videoWidth;"), 512);
+    EXPECT_GT(
+        browser.run("return document.querySelector('#video').webkitAudioDecodedByteCount;").get<double>(),
+        1000);
+    EXPECT_GT(browser.run("return document.querySelector('#video').webkitDecodedFrameCount;").get<double>(),
+              5);
+
+    const std::string shown = browser.run("return document.querySelector('#now').textContent;");
+    EXPECT_TRUE(browser.wait_until(
+        "document.querySelector('#now').textContent !== " + nlohmann::json(shown).dump(), 10));
+    EXPECT_TRUE(browser.wait_until("document.querySelector('#video').ended", 60));
+    const char* kSpokenDuration =
+        "return fetch('/v1/viapoints', {method: 'POST', headers: {'Content-Type': 'application/json'}, body: "
+        "JSON.stringify({text: document.querySelector('#text').value})}).then(a => a.json()).then(t => "
+        "t.duration_s);";
+    EXPECT_NEAR(browser.run("return document.querySelector('#video').duration;").get<double>(),
+                browser.run(kSpokenDuration).get<double>(), 1.5 / 30);
+    if (const char* picture = std::getenv("VIAFACE_PAGE_PICTURE")) browser.save_screenshot(picture);
+}
+
+TEST_F(Page, SaysWhatIsWrongWithTheText) {
+    WebDriver& browser = *browser_;
+    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
+    browser.run("document.querySelector('#text').value = '?!';");
+    browser.click("#speak");
+    EXPECT_TRUE(
+        browser.wait_until("document.querySelector('#message.error')?.textContent.includes('text')", 20));
+}
+
+}  // namespace
+}  // namespace viaface
