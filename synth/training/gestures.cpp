@@ -12,6 +12,9 @@ using Eigen::Index;
 
 constexpr double kLipLead = 0.025, kJawLead = 0.010, kClosureLead = 0.026;  // s
 constexpr double kClosureLeadShare = 0.3;  // of the phone: a short closure leads less, to stay inside
+constexpr double kHeldUntil = 0.85;        // of the phone: what is left is its release
+constexpr double kHoldLead = 0.010;        // s, before that
+constexpr double kHeldShare = 0.45;        // of a bilabial's target: past contact still
 constexpr double kVelocityTime = 0.020;    // a, s
 constexpr double kJerkTime = 0.022;        // b, s
 constexpr double kEdgeShare = 0.15;        // of the window: a gesture grows and fades within its phone
@@ -41,6 +44,18 @@ Pull closure_pull(const Gesture& gesture, double begin, double end) {
     return {gesture.target, gesture.dominance, instant, instant, gesture.reach_ms / 1000};
 }
 
+// What keeps a closure until the sound is released: lips stay in contact less deeply than they met, teeth and
+// lip as they met.
+Pull hold_pull(const Gesture& gesture, VisemeClass viseme, double begin, double end) {
+    const double share = viseme == VisemeClass::kBilabial ? kHeldShare : 1;
+    const double until = begin + kHeldUntil * (end - begin) - kHoldLead;
+    return {share * gesture.target, gesture.dominance, until, until, gesture.reach_ms / 1000};
+}
+
+bool is_held(VisemeClass viseme) {
+    return viseme == VisemeClass::kBilabial || viseme == VisemeClass::kLabiodental;
+}
+
 Pull sustained_pull(const Gesture& gesture, double lead, double begin, double end) {
     const double edge = kEdgeShare * (end - begin);
     return {gesture.target, gesture.dominance, begin + edge - lead, end - edge - lead,
@@ -60,8 +75,10 @@ std::vector<Pull> pulls_of(const PhoneSequence& phones, int channel) {
             g.dominance *= reduction.dominance;
             const double from = part == 1 ? begin + kSecondFrom * length : begin;
             const double to = part == 0 && parts.size() == 2 ? begin + kFirstUntil * length : end;
-            pulls.push_back(g.dominance >= kInstant ? closure_pull(g, from, to)
-                                                    : sustained_pull(g, lead, from, to));
+            const bool closes = g.dominance >= kInstant;
+            pulls.push_back(closes ? closure_pull(g, from, to) : sustained_pull(g, lead, from, to));
+            const VisemeClass viseme = phone_info(phones.phones[i].phone).viseme;
+            if (closes && is_held(viseme)) pulls.push_back(hold_pull(g, viseme, from, to));
         }
     }
     return pulls;

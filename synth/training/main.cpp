@@ -1,0 +1,108 @@
+// viaface_train make SCANS OUTPUT: the built-in talker from its scans and performed recitations. A program of
+// its own, so that the model that performs is not linked into what speaks.
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/whole_file.hpp"
+#include "facemodel/gltf.hpp"
+#include "synth/training/bake.hpp"
+#include "synth/training/corpus.hpp"
+#include "synth/training/learn.hpp"
+#include "synth/training/make_face.hpp"
+#include "synth/training/report.hpp"
+#include "viapoints/codex_file.hpp"
+
+namespace viaface {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCopyright =
+    "Shapes computed from the ICT Face Model Light, Copyright (c) 2020 USC Institute for Creative "
+    "Technologies, MIT licence; "
+    "meshes, textures and motion by the viaface authors, MIT licence";
+
+void tell(const std::string& what) { std::fprintf(stderr, "viaface: %s\n", what.c_str()); }
+
+nlohmann::json description() {
+    return {{"name", "momo"},
+            {"summary", "a young man; his motion is performed by a model, not measured from a person"},
+            {"format", 1},
+            {"units",
+             "mm and s, head frame: x to the talker's left, y up, z forward, origin midway between the upper "
+             "incisors' edges at rest"},
+            {"layout", "viapoints/LAYOUT.md, 38 points"},
+            {"language", "en"},
+            {"files", {{"face", "face.glb"}, {"estimators", "estimators.bin"}, {"codex", "codex.via"}}},
+            {"provenance",
+             {{"shape",
+               "Computed from posed scans of the ICT Face Model Light (ICT-FaceKit) on meshes of this "
+               "project's own. No scan of one person."},
+              {"textures", "Painted by procedure; no photograph."},
+              {"motion",
+               "Performed by a gestural model for the timing of a speech synthesiser (Flite, voice rms); not "
+               "measured from a person."},
+              {"corpus", "Sentences written for this project, and strings of phones made by rule."}}},
+            {"licence", "MIT"},
+            {"notice",
+             "Copyright (c) 2020 USC Institute for Creative Technologies (ICT Face Model Light, MIT "
+             "licence); the notice stands whole in NOTICE."}};
+}
+
+Landmarks landmarks_of(const BlendHead& head) {
+    Landmarks places;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] = head.neutral().nodes.row(head.landmarks().at(i)).transpose();
+    return places;
+}
+
+void make_shapes(const BlendHead& head, const fs::path& output) {
+    tell("fitting the display mesh");
+    const HeadToFace source(head);
+    Face face = make_face(source);
+    tell("baking textures");
+    bake_surfaces(face, landmarks_of(head));
+    write_whole(output / "face.glb", write_glb(face, kCopyright));
+    write_whole(output / "estimators.bin", write_training(pose_training(source, face)));
+}
+
+void make_codex(const BlendHead& head, const fs::path& corpus, const fs::path& output) {
+    tell("speaking the corpus for its timing");
+    const auto recitations = timed_corpus(read_sentences(corpus), generated_strings());
+    const Codex codex = learn_codex(Performer(head), recitations, tell);
+    write_whole(output / "codex.via", write_codex(codex));
+    const Coverage coverage = coverage_of(codex);
+    std::printf("codex: %zu units, %d phones, %d diphones, %d triphones; %zu diphones missing\n",
+                codex.units.size(), coverage.phones, coverage.diphones, coverage.triphones,
+                coverage.missing_diphones.size());
+}
+
+int make(const fs::path& scans, const fs::path& output) {
+    const BlendHead head(scans);
+    fs::create_directories(output);
+    std::printf("%s\n", atr_report(head).c_str());
+    make_shapes(head, output);
+    make_codex(head, fs::path(VIAFACE_CORPUS), output);
+    write_whole(output / "talker.json", std::string_view(description().dump(2) + "\n"));
+    return 0;
+}
+
+}  // namespace
+}  // namespace viaface
+
+int main(int argc, char** argv) {
+    try {
+        if (argc != 4 || std::string(argv[1]) != "make")
+            throw viaface::InputError("arguments", argc > 1 ? argv[1] : "", "make SCANS OUTPUT");
+        return viaface::make(argv[2], argv[3]);
+    } catch (const viaface::InputError& error) {
+        std::fprintf(stderr, "viaface: %s\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "viaface: %s\n", viaface::describe(error).c_str());
+        return 1;
+    }
+}
