@@ -11,6 +11,7 @@
 #include "synth/training/bake.hpp"
 #include "synth/training/corpus.hpp"
 #include "synth/training/learn.hpp"
+#include "synth/training/left_out.hpp"
 #include "synth/training/make_face.hpp"
 #include "synth/training/report.hpp"
 #include "viapoints/codex_file.hpp"
@@ -59,9 +60,20 @@ Landmarks landmarks_of(const BlendHead& head) {
     return places;
 }
 
+void print_distances(const HeadToFace& source) {
+    std::printf(
+        "display face: asked to drawn, each posture left out of modes and estimators, mm\n%-18s %8s %8s "
+        "%8s\n",
+        "posture", "mean", "p95", "max");
+    for (const DrawnDistance& d : left_out_distances(source)) {
+        std::printf("%-18s %8.2f %8.2f %8.2f\n", d.name.c_str(), d.mean_mm, d.ninety_fifth_mm, d.largest_mm);
+    }
+}
+
 void make_shapes(const BlendHead& head, const fs::path& output) {
     tell("fitting the display mesh");
     const HeadToFace source(head);
+    print_distances(source);
     Face face = make_face(source);
     tell("baking textures");
     bake_surfaces(face, landmarks_of(head));
@@ -78,6 +90,10 @@ void make_codex(const BlendHead& head, const fs::path& corpus, const fs::path& o
     std::printf("codex: %zu units, %d phones, %d diphones, %d triphones; %zu diphones missing\n",
                 codex.units.size(), coverage.phones, coverage.diphones, coverage.triphones,
                 coverage.missing_diphones.size());
+    const SpokenShares shares = spoken_shares(codex, timed_corpus(read_sentences(VIAFACE_HELD_OUT), {}));
+    std::printf(
+        "on sentences outside the corpus: %.1f%% exact triphones, %.1f%% by viseme class, %.1f%% halves\n",
+        100 * shares.exact, 100 * shares.of_class, 100 * shares.half);
 }
 
 int make(const fs::path& scans, const fs::path& output) {
