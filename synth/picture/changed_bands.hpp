@@ -2,9 +2,10 @@
 // a changed corner mark the rows of tiles they covered and cover; neighbouring marked rows form a band.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
-#include "synth/picture/gl.hpp"
+#include "synth/picture/rect.hpp"
 
 namespace viaface {
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "facemodel/face.hpp"
+#include "synth/picture/rect.hpp"
 
 namespace viaface {
 
@@ -36,11 +37,6 @@ class Program {
 GLuint make_texture(const Texture& texture);
 
 GLuint make_buffer();
-
-struct Rect {
-    int left = 0, bottom = 0, width = 0, height = 0;  // pixels, from the lower left corner
-    bool operator==(const Rect&) const = default;
-};
 
 // A picture of four samples per pixel with its depth, and the plain picture it is resolved to.
 class MultisampledPicture {

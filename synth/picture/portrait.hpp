@@ -13,6 +13,22 @@
 
 namespace viaface {
 
+enum class Renderer {
+    kRaster,  // our own rasteriser
+    kOsmesa   // Mesa's, the reference: some ten times slower
+};
+
+enum class Instructions {
+    kBest,     // the widest that this processor has
+    kBaseline  // what every processor has; the same bytes
+};
+
+struct Drawing {
+    Renderer renderer = Renderer::kRaster;
+    int threads = 2;  // of the rasteriser, the caller's included; the same bytes with any number
+    Instructions instructions = Instructions::kBest;
+};
+
 class Portrait {
   public:
     static constexpr double kGrain = 1.0 / 64;  // mm
@@ -21,7 +37,7 @@ class Portrait {
     enum class Redraw { kChanged, kAll };
 
     // InputError for a view out of its limits; std::invalid_argument for a face whose arrays do not fit.
-    Portrait(const Face& face, const View& view);
+    Portrait(const Face& face, const View& view, const Drawing& drawing = {});
     ~Portrait();
     Portrait(Portrait&&) noexcept;
     Portrait& operator=(Portrait&&) noexcept;

@@ -13,14 +13,19 @@ float grained(double mm) {
     return static_cast<float>(std::nearbyint(mm / Portrait::kGrain) * Portrait::kGrain);
 }
 
+Eigen::Matrix4f clip_from_head(const View& view) {
+    const Camera camera = camera_of(view);
+    return (camera.clip_from_world * camera.world_from_head).cast<float>();
+}
+
 }  // namespace
 
-PosedVertices::PosedVertices(const Face& face, const View& view, const Eigen::Matrix4d& clip_from_head)
+PosedVertices::PosedVertices(const Face& face, const View& view)
     : rest_(face.rest),
       hair_(Portrait::kHair * pixel_size(view)),
       node_normals_(face),
       mouth_light_(face),
-      clip_from_head_(clip_from_head.cast<float>()),
+      clip_from_head_(clip_from_head(view)),
       half_picture_(0.5f * view.width, 0.5f * view.height),
       places_(face.rest.rows(), 3),
       vertices_(face.rest.rows()),

@@ -19,7 +19,7 @@ struct Vertex {
 
 class PosedVertices {
   public:
-    PosedVertices(const Face& face, const View& view, const Eigen::Matrix4d& clip_from_head);
+    PosedVertices(const Face& face, const View& view);
 
     void pose(const Nodes& posed);
     std::span<const Vertex> vertices() const { return vertices_; }

@@ -25,8 +25,6 @@ enum VertexAttribute : GLuint {
     kTangentAttribute
 };
 
-bool two_sided(Material material);
-
 class Shading {
   public:
     Shading(const Face& face, const View& view, const Camera& camera);

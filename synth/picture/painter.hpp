@@ -1,0 +1,26 @@
+// What turns a pose into pixels: our own rasteriser, or OpenGL, which stands as the reference.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "synth/picture/portrait.hpp"
+#include "synth/picture/posed_vertices.hpp"
+#include "synth/picture/rect.hpp"
+
+namespace viaface {
+
+class Painter {
+  public:
+    virtual ~Painter() = default;
+    // Draws the rectangles, which are apart from each other, into `rgba`: [height x width x 4], bottom row
+    // first. Nothing inside the mouth shows outside `opening`.
+    virtual void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening,
+                       std::uint8_t* rgba) = 0;
+};
+
+std::unique_ptr<Painter> make_gl_painter(const Face& face, const View& view);
+std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, const Drawing& drawing);
+
+}  // namespace viaface

@@ -1,0 +1,449 @@
+// Compiled once per instruction set, which VIAFACE_KERNEL names.
+#include "synth/picture/raster_scene.hpp"
+#include "synth/picture/raster_shades.hpp"
+#include "synth/picture/raster_wide.hpp"
+
+namespace viaface::raster::VIAFACE_KERNEL {
+namespace {
+
+constexpr std::int64_t kEighth = kSteps / 8;
+constexpr int kBlock = 16;  // pixels: edge functions stay within 32 bits
+
+// Two pixels' samples fill a vector: places from the first pixel's middle, in eighths of a pixel.
+constexpr WideInt kRightEighths = {-1, 3, -3, 1, 7, 11, 5, 9};
+constexpr WideInt kUpEighths = {-3, -1, 1, 3, -3, -1, 1, 3};
+constexpr float kSampleRight[kSamples] = {-0.125f, 0.375f, -0.375f, 0.125f};
+constexpr float kSampleUp[kSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
+
+template <class T>
+VIAFACE_INLINE T smaller(T a, T b) {
+    return a < b ? a : b;
+}
+template <class T>
+VIAFACE_INLINE T larger(T a, T b) {
+    return a > b ? a : b;
+}
+VIAFACE_INLINE float magnitude(float v) { return v < 0 ? -v : v; }
+
+// Positive on the left of the way from `a` to `b`, on the grid.
+struct Edge {
+    std::int64_t right, up, start;
+
+    VIAFACE_INLINE Edge(const Place& a, const Place& b)
+        : right(std::int64_t(a.y) - b.y), up(std::int64_t(b.x) - a.x), start(-right * a.x - up * a.y) {}
+    VIAFACE_INLINE std::int64_t at(std::int64_t x, std::int64_t y) const {
+        return start + right * x + up * y;
+    }
+    // A sample on the edge belongs to the triangle on one side alone.
+    VIAFACE_INLINE bool owns() const { return right > 0 || (right == 0 && up < 0); }
+};
+
+VIAFACE_INLINE std::int64_t middle(std::int64_t pixel) { return pixel * kSteps + kSteps / 2; }
+VIAFACE_INLINE std::int32_t floor_pixel(std::int32_t place) { return place >> 7; }
+static_assert(1 << 7 == kSteps);
+
+struct Prepared {
+    Edge edges[3];  // opposite the corners
+    Bounds bounds;
+    bool drawn;
+};
+
+// The level whose texels are nearest to a pixel in size, along the axis where they are most.
+VIAFACE_INLINE const Level* level_of(const Mipmap& mipmap, const Node* const (&n)[3], const Edge (&edges)[3],
+                                     float area) {
+    const float width = float(mipmap.levels[0].width), height = float(mipmap.levels[0].height);
+    float right_s = 0, right_t = 0, up_s = 0, up_t = 0;
+    for (int i = 0; i < 3; ++i) {
+        const float right = float(edges[i].right), up = float(edges[i].up);
+        right_s += right * n[i]->s, right_t += right * n[i]->t;
+        up_s += up * n[i]->s, up_t += up * n[i]->t;
+    }
+    right_s *= width, up_s *= width, right_t *= height, up_t *= height;
+    const float most = larger(right_s * right_s + right_t * right_t, up_s * up_s + up_t * up_t);
+    const float share = float(kSteps) / area;
+    const float texels = most * share * share;  // per pixel, squared
+    int level = 0;
+    for (float limit = 2; level + 1 < mipmap.count && texels > limit; limit *= 4) ++level;
+    return &mipmap.levels[level];
+}
+
+VIAFACE_INLINE Bounds common(const Bounds& a, const Bounds& b) {
+    return {larger(a.left, b.left), larger(a.bottom, b.bottom), smaller(a.right, b.right),
+            smaller(a.top, b.top)};
+}
+
+VIAFACE_INLINE Bounds box(const Place& a, const Place& b, const Place& c) {
+    return {floor_pixel(smaller(smaller(a.x, b.x), c.x)), floor_pixel(smaller(smaller(a.y, b.y), c.y)),
+            floor_pixel(larger(larger(a.x, b.x), c.x)) + 1, floor_pixel(larger(larger(a.y, b.y), c.y)) + 1};
+}
+
+VIAFACE_INLINE Prepared prepare(const Scene& scene, const Bounds& seen, const Facet& facet, Surface& s) {
+    std::int32_t n0 = facet.node[0], n1 = facet.node[1], n2 = facet.node[2];
+    const Edge side(scene.places[n0], scene.places[n1]);
+    std::int64_t area = side.at(scene.places[n2].x, scene.places[n2].y);
+    if (area < 0 && facet.two_sided) {
+        const std::int32_t swapped = n1;
+        n1 = n2, n2 = swapped, area = -area;
+    }
+    const Place &a = scene.places[n0], &b = scene.places[n1], &c = scene.places[n2];
+    Prepared p{{Edge(b, c), Edge(c, a), Edge(a, b)}, common(box(a, b, c), seen), false};
+    if (area <= 0 || p.bounds.left >= p.bounds.right || p.bounds.bottom >= p.bounds.top) return p;
+    p.drawn = true;
+    const Place* places[3] = {&a, &b, &c};
+    const std::int32_t x = floor_pixel(a.x), y = floor_pixel(a.y);
+    const float twice_area = float(area);
+    s.x = float(x), s.y = float(y);
+    s.nearness = s.nearness_right = s.nearness_up = 0;
+    for (int i = 0; i < 3; ++i) {
+        const float near = places[i]->nearness;
+        s.weight[i] = float(p.edges[i].at(middle(x), middle(y))) * near;
+        s.weight_right[i] = float(p.edges[i].right * kSteps) * near;
+        s.weight_up[i] = float(p.edges[i].up * kSteps) * near;
+        s.least[i] = -0.5f * twice_area * near;
+        s.nearness += s.weight[i], s.nearness_right += s.weight_right[i], s.nearness_up += s.weight_up[i];
+    }
+    s.weight[3] = s.weight_right[3] = s.weight_up[3] = s.least[3] = 0;
+    s.nearness /= twice_area, s.nearness_right /= twice_area, s.nearness_up /= twice_area;
+    s.node[0] = n0, s.node[1] = n1, s.node[2] = n2;
+    const Node* const nodes[3] = {scene.nodes + n0, scene.nodes + n1, scene.nodes + n2};
+    s.side = nodes[0]->side;
+    s.level = level_of(scene.mipmaps[facet.material], nodes, p.edges, twice_area);
+    s.material = facet.material;
+    s.shade = facet.shade;
+    return p;
+}
+
+// An edge function at the samples of two pixels of a block, in steps of an eighth of a pixel: its sign is
+// that of the exact function.
+struct BlockEdge {
+    WideInt at, right, up;
+
+    VIAFACE_INLINE BlockEdge(const Edge& edge, std::int64_t x, std::int64_t y) {
+        const std::int64_t exact = (edge.at(middle(x), middle(y)) - !edge.owns()) >> 4;
+        constexpr std::int64_t kFar = 1 << 30;
+        const auto first = std::int32_t(smaller(larger(exact, -kFar), kFar));
+        const auto to_right = std::int32_t(edge.right), to_up = std::int32_t(edge.up);
+        at = wide(first) + kRightEighths * to_right + kUpEighths * to_up;
+        right = wide(16 * to_right);
+        up = wide(8 * to_up);
+    }
+};
+static_assert(kEighth == 1 << 4);
+
+// Calls visit(x, y, outside, nearness) for pairs of pixels that hold a sample within the triangle; `outside`
+// is below zero in the lanes of other samples.
+template <class Visit>
+VIAFACE_INLINE void for_pairs(const Prepared& p, const Surface& s, const Visit& visit) {
+    const WideInt kSecond = {0, 0, 0, 0, 1, 1, 1, 1};
+    const Wide sample_right = __builtin_convertvector(kRightEighths, Wide) * 0.125f;
+    const Wide sample_up = __builtin_convertvector(kUpEighths, Wide) * 0.125f;
+    for (std::int32_t block = p.bounds.left; block < p.bounds.right; block += kBlock) {
+        const std::int32_t end = smaller(block + kBlock, p.bounds.right);
+        BlockEdge e0(p.edges[0], block, p.bounds.bottom), e1(p.edges[1], block, p.bounds.bottom),
+            e2(p.edges[2], block, p.bounds.bottom);
+        for (std::int32_t y = p.bounds.bottom; y < p.bounds.top; ++y) {
+            WideInt a = e0.at, b = e1.at, c = e2.at;
+            const Wide row = s.nearness_up * (sample_up + (float(y) - s.y)) + s.nearness;
+            for (std::int32_t x = block; x < end; x += 2) {
+                const WideInt outside = a | b | c | (end - 1 - x - kSecond);
+                if (negative_lanes(outside) != 0xff)
+                    visit(x, y, outside, row + s.nearness_right * (sample_right + (float(x) - s.x)));
+                a += e0.right, b += e1.right, c += e2.right;
+            }
+            e0.at += e0.up, e1.at += e1.up, e2.at += e2.up;
+        }
+    }
+}
+
+class StripeDrawing {
+  public:
+    VIAFACE_INLINE StripeDrawing(const Scene& scene, const Stripe& stripe, const Scratch& scratch)
+        : scene_(scene), stripe_(stripe), scratch_(scratch), bounds_(stripe.bounds) {}
+
+    VIAFACE_INLINE void draw() {
+        clear();
+        const std::int32_t lashes = settle();
+        resolve();
+        blend(lashes);
+    }
+
+  private:
+    static constexpr int kQueued = 8;
+    struct Queue {
+        Fragment fragments[kQueued];
+        int count = 0;
+    };
+
+    VIAFACE_INLINE std::int32_t sample(std::int32_t x, std::int32_t y) const {
+        return ((y - bounds_.bottom) * (scene_.width + 1) + x - bounds_.left) * kSamples;
+    }
+    VIAFACE_INLINE std::int32_t pixel(std::int32_t x, std::int32_t y) const {
+        return (y - bounds_.bottom) * scene_.width + x - bounds_.left;
+    }
+    VIAFACE_INLINE std::uint32_t& rgba(std::int32_t x, std::int32_t y) const {
+        return scene_.rgba[std::int64_t(y) * scene_.width + x];
+    }
+    VIAFACE_INLINE std::uint32_t background(std::int32_t x, std::int32_t y) const {
+        return scene_.background[std::int64_t(y) * scene_.width + x];
+    }
+
+    VIAFACE_INLINE void clear() {
+        const std::size_t width = std::size_t(bounds_.right - bounds_.left);
+        for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
+            __builtin_memset(scratch_.nearness + sample(bounds_.left, y), 0, (width + 1) * kSamples * 4);
+            __builtin_memset(scratch_.seen + sample(bounds_.left, y), 0, (width + 1) * kSamples * 4);
+            __builtin_memcpy(&rgba(bounds_.left, y),
+                             scene_.background + std::int64_t(y) * scene_.width + bounds_.left, width * 4);
+        }
+    }
+
+    VIAFACE_INLINE Prepared prepare(std::int32_t i) {
+        const Facet& facet = scene_.facets[stripe_.facets[i]];
+        return VIAFACE_KERNEL::prepare(scene_, facet.inside ? common(bounds_, scene_.opening) : bounds_,
+                                       facet, scratch_.surfaces[i]);
+    }
+
+    // What is in front. The first of the lashes.
+    std::int32_t settle() {
+        for (std::int32_t i = 0; i < stripe_.count; ++i) {
+            if (scene_.facets[stripe_.facets[i]].shade == Shade::kLash) return i;
+            const Prepared p = prepare(i);
+            if (!p.drawn) continue;
+            for_pairs(
+                p, scratch_.surfaces[i],
+                [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness)
+                    __attribute__((always_inline)) {
+                        float* const near = scratch_.nearness + sample(x, y);
+                        std::int32_t* const seen = scratch_.seen + sample(x, y);
+                        const Wide before = load<Wide>(near);
+                        const WideInt in_front = (outside >= 0) & (nearness > before);
+                        store(near, in_front ? nearness : before);
+                        store(seen, in_front ? wide(i + 1) : load<WideInt>(seen));
+                    });
+        }
+        return stripe_.count;
+    }
+
+    void resolve() {
+        mixed_ = 0;
+        for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
+            const std::int32_t* seen = scratch_.seen + sample(bounds_.left, y);
+            for (std::int32_t x = bounds_.left; x < bounds_.right; ++x, seen += kSamples) {
+                if ((seen[0] ^ seen[1]) | (seen[0] ^ seen[2]) | (seen[0] ^ seen[3])) {
+                    resolve_mixed(x, y, seen);
+                } else if (seen[0] != 0) {
+                    push({x, y, seen[0] - 1, kSamples});
+                }
+            }
+        }
+        flush<Shade::kSkin>();
+        flush<Shade::kInside>();
+        flush<Shade::kEye>();
+        flush<Shade::kCloth>();
+        for (std::int32_t i = 0; i < mixed_; ++i) {
+            const auto& [x, y, surface, samples] = scratch_.mixed[i];
+            const std::uint32_t sum = scratch_.sums[pixel(x, y)] + 2 * kOne;
+            rgba(x, y) = (sum >> 2 & 255) | (sum >> 12 & 255) << 8 | (sum >> 22 & 255) << 16 | kOpaque;
+        }
+    }
+
+    static constexpr std::uint32_t kOne = 1 | 1 << 10 | 1 << 20, kOpaque = 255u << 24;
+
+    static VIAFACE_INLINE std::uint32_t spread(std::uint32_t rgba) {
+        return (rgba & 255) | (rgba >> 8 & 255) << 10 | (rgba >> 16 & 255) << 20;
+    }
+
+    // Whether the surface seen at a sample goes on to what another sample sees.
+    VIAFACE_INLINE bool continues(std::int32_t one, std::int32_t other, float right, float up,
+                                  float near) const {
+        const Surface &a = scratch_.surfaces[one], &b = scratch_.surfaces[other];
+        if (a.material != b.material) return false;
+        const float expected = a.nearness + (right - a.x) * a.nearness_right + (up - a.y) * a.nearness_up;
+        return magnitude(expected - near) < scene_.step * near &&
+               magnitude(a.nearness_right - b.nearness_right) + magnitude(a.nearness_up - b.nearness_up) <
+                   scene_.fold * near;
+    }
+
+    VIAFACE_INLINE void resolve_mixed(std::int32_t x, std::int32_t y, const std::int32_t* seen) {
+        const float* const near = scratch_.nearness + (seen - scratch_.seen);
+        Fragment found[kSamples];
+        int count = 0;
+        std::int32_t empty = 0;
+        unsigned left = 0xf;
+        for (int i = 0; i < kSamples; ++i) {
+            if ((left >> i & 1) == 0) continue;
+            if (seen[i] == 0) {
+                ++empty;
+                continue;
+            }
+            Fragment fragment{x, y, seen[i] - 1, 1};
+            for (int j = i + 1; j < kSamples; ++j) {
+                if ((left >> j & 1) == 0 || seen[j] == 0) continue;
+                if (seen[j] != seen[i] && !continues(seen[i] - 1, seen[j] - 1, float(x) + kSampleRight[j],
+                                                     float(y) + kSampleUp[j], near[j]))
+                    continue;
+                left &= ~(1u << j);
+                ++fragment.samples;
+            }
+            found[count++] = fragment;
+        }
+        if (found[0].samples < kSamples) {
+            scratch_.mixed[mixed_++] = found[0];
+            scratch_.sums[pixel(x, y)] = std::uint32_t(empty) * spread(background(x, y));
+        }
+        for (int i = 0; i < count; ++i) push(found[i]);
+    }
+
+    VIAFACE_INLINE void push(const Fragment& fragment) {
+        const Shade shade = scratch_.surfaces[fragment.surface].shade;
+        Queue& queue = queues_[int(shade)];
+        queue.fragments[queue.count++] = fragment;
+        if (queue.count < kQueued) return;
+        switch (shade) {
+            case Shade::kSkin:
+                return flush<Shade::kSkin>();
+            case Shade::kInside:
+                return flush<Shade::kInside>();
+            case Shade::kEye:
+                return flush<Shade::kEye>();
+            case Shade::kCloth:
+                return flush<Shade::kCloth>();
+            case Shade::kLash:
+                return flush<Shade::kLash>();
+        }
+    }
+
+    template <Shade shade>
+    __attribute__((noinline)) void flush() {
+        Queue& queue = queues_[int(shade)];
+        if (queue.count == 0) return;
+        for (int i = queue.count; i < kQueued; ++i) queue.fragments[i] = queue.fragments[0];
+        const Lit lit = light(queue.fragments);
+        const Three c = shaded<shade>(lit);
+        const WideInt colour = byte(filmic(c.x)) | byte(filmic(c.y)) << 8 | byte(filmic(c.z)) << 16;
+        std::uint32_t colours[kQueued];
+        store(colours, colour);
+        if constexpr (shade == Shade::kLash) {
+            float covers[kQueued];
+            store(covers, lit.cover);
+            for (int i = 0; i < queue.count; ++i) lay_over(queue.fragments[i], colours[i], covers[i]);
+        } else {
+            for (int i = 0; i < queue.count; ++i) add(queue.fragments[i], colours[i]);
+        }
+        queue.count = 0;
+    }
+
+    VIAFACE_INLINE void add(const Fragment& f, std::uint32_t colour) {
+        if (f.samples == kSamples) {
+            rgba(f.x, f.y) = colour | kOpaque;
+        } else {
+            scratch_.sums[pixel(f.x, f.y)] += std::uint32_t(f.samples) * spread(colour);
+        }
+    }
+
+    VIAFACE_INLINE void lay_over(const Fragment& f, std::uint32_t colour, float cover) {
+        std::uint32_t& to = rgba(f.x, f.y);
+        const float share = cover * float(f.samples) * (1.0f / kSamples);
+        std::uint32_t mixed = kOpaque;
+        for (int shift = 0; shift < 24; shift += 8) {
+            const float under = float(to >> shift & 255), over = float(colour >> shift & 255);
+            mixed |= std::uint32_t(under + share * (over - under) + 0.5f) << shift;
+        }
+        to = mixed;
+    }
+
+    // What the shaders need of each fragment, at its pixel's middle.
+    VIAFACE_INLINE Lit light(const Fragment* fragments) const {
+        Wide places[8], texels[8];
+        float lights[8], sides[8], x[8], y[8];
+        for (int lane = 0; lane < 8; ++lane) {
+            const Fragment& f = fragments[lane];
+            const Surface& s = scratch_.surfaces[f.surface];
+            x[lane] = float(f.x), y[lane] = float(f.y);
+            Four weight = load<Four>(s.weight) + load<Four>(s.weight_right) * (x[lane] - s.x) +
+                          load<Four>(s.weight_up) * (y[lane] - s.y);
+            weight = greater(weight, load<Four>(s.least));
+            weight *= 1.0f / (weight[0] + weight[1] + weight[2]);
+            const Node &a = scene_.nodes[s.node[0]], &b = scene_.nodes[s.node[1]],
+                       &c = scene_.nodes[s.node[2]];
+            places[lane] = load<Wide>(a.normal) * weight[0] + load<Wide>(b.normal) * weight[1] +
+                           load<Wide>(c.normal) * weight[2];
+            lights[lane] = a.light * weight[0] + b.light * weight[1] + c.light * weight[2];
+            sides[lane] = s.side;
+            texels[lane] = fetch(*s.level, places[lane][6], places[lane][7]);
+        }
+        transpose(places);
+        transpose(texels);
+        for (Wide& channel : texels) channel *= 1.0f / 255;
+        const Wide right = load<Wide>(x), up = load<Wide>(y);
+        const auto& eye = scene_.to_camera;
+        const Three to_camera = unit({eye[0][0] + right * eye[1][0] + up * eye[2][0],
+                                      eye[0][1] + right * eye[1][1] + up * eye[2][1],
+                                      eye[0][2] + right * eye[1][2] + up * eye[2][2]});
+        return {{places[0], places[1], places[2]},
+                {places[3], places[4], places[5]},
+                to_camera,
+                load<Wide>(sides),
+                load<Wide>(lights),
+                {texels[0], texels[1], texels[2]},
+                texels[3],
+                texels[4],
+                texels[5],
+                texels[6],
+                texels[7]};
+    }
+
+    typedef std::uint8_t Texel __attribute__((vector_size(8)));
+
+    static VIAFACE_INLINE Wide texel(const std::uint8_t* at) {
+        return __builtin_convertvector(load<Texel>(at), Wide);
+    }
+
+    // Bilinear; sideways the texture repeats.
+    static VIAFACE_INLINE Wide fetch(const Level& level, float s, float t) {
+        s -= float(std::int32_t(smaller(larger(s, -1e6f), 1e6f)));
+        s = s < 0 ? s + 1 : s;
+        const float column = larger(0.0f, smaller(1.0f, s)) * float(level.width) + 0.5f;
+        const float row = larger(0.0f, smaller(1.0f, t)) * float(level.height) + 0.5f;
+        const auto left = std::int32_t(column), upper = std::int32_t(row);
+        const float share = column - float(left), lower_share = row - float(upper);
+        const std::ptrdiff_t stride = std::ptrdiff_t(level.width + 2) * 8;
+        const std::uint8_t* const at = level.border + upper * stride + std::ptrdiff_t(left) * 8;
+        const Wide a = texel(at), b = texel(at + 8), c = texel(at + stride), d = texel(at + stride + 8);
+        const Wide high = a + (b - a) * share, low = c + (d - c) * share;
+        return high + (low - high) * lower_share;
+    }
+
+    void blend(std::int32_t first) {
+        for (std::int32_t i = first; i < stripe_.count; ++i) {
+            const Prepared p = prepare(i);
+            if (!p.drawn) continue;
+            for_pairs(
+                p, scratch_.surfaces[i],
+                [&](std::int32_t x, std::int32_t y, WideInt outside,
+                    Wide nearness) __attribute__((always_inline)) {
+                    const Wide before = load<Wide>(scratch_.nearness + sample(x, y));
+                    const unsigned lanes = negative_lanes((outside >= 0) & (nearness > before));
+                    const int here = __builtin_popcount(lanes & 15), next = __builtin_popcount(lanes >> 4);
+                    if (here != 0) push({x, y, i, here});
+                    if (next != 0) push({x + 1, y, i, next});
+                });
+        }
+        flush<Shade::kLash>();
+    }
+
+    const Scene& scene_;
+    const Stripe& stripe_;
+    const Scratch& scratch_;
+    const Bounds bounds_;
+    Queue queues_[kOpaqueShades + 1];
+    std::int32_t mixed_ = 0;
+};
+
+}  // namespace
+
+void draw_stripe(const Scene& scene, const Stripe& stripe, const Scratch& scratch) {
+    StripeDrawing(scene, stripe, scratch).draw();
+}
+
+}  // namespace viaface::raster::VIAFACE_KERNEL

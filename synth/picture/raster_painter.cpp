@@ -1,0 +1,278 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "synth/picture/background.hpp"
+#include "synth/picture/layers.hpp"
+#include "synth/picture/painter.hpp"
+#include "synth/picture/raster_scene.hpp"
+#include "synth/picture/raster_textures.hpp"
+#include "synth/picture/stripe_pool.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Vector3f;
+using raster::Bounds;
+
+constexpr float kFold = 1.0f;   // slope, depth per width
+constexpr float kStep = 0.75f;  // pixels
+
+raster::Shade shade_of(Material material) {
+    switch (material) {
+        case Material::kSkin:
+        case Material::kLips:
+            return raster::Shade::kSkin;
+        case Material::kMouth:
+        case Material::kGums:
+        case Material::kTeeth:
+        case Material::kTongue:
+            return raster::Shade::kInside;
+        case Material::kEye:
+            return raster::Shade::kEye;
+        case Material::kLash:
+            return raster::Shade::kLash;
+        case Material::kCloth:
+            return raster::Shade::kCloth;
+    }
+    return raster::Shade::kSkin;
+}
+
+std::vector<raster::Facet> facets_of(const Face& face) {
+    std::vector<raster::Facet> facets;
+    for (const auto& [material, triangles] : layers_of(face)) {
+        for (const auto& [a, b, c] : triangles) {
+            facets.push_back({{a, b, c},
+                              static_cast<std::uint8_t>(material),
+                              shade_of(material),
+                              inside_mouth(material),
+                              two_sided(material)});
+        }
+    }
+    return facets;
+}
+
+raster::DrawStripe kernel_of(Instructions instructions) {
+#ifdef VIAFACE_AVX2_KERNEL
+    if (instructions == Instructions::kBest && __builtin_cpu_supports("avx2"))
+        return raster::avx2::draw_stripe;
+#endif
+    static_cast<void>(instructions);
+    return raster::baseline::draw_stripe;
+}
+
+// Buffers of one thread.
+struct Workspace {
+    std::vector<float> nearness;
+    std::vector<std::int32_t> seen;
+    std::vector<std::uint32_t> sums;
+    std::vector<raster::Fragment> mixed;
+    std::vector<raster::Surface> surfaces;
+
+    explicit Workspace(int width)
+        : nearness(std::size_t(width + 1) * raster::kStripeRows * raster::kSamples),
+          seen(nearness.size()),
+          sums(std::size_t(width) * raster::kStripeRows),
+          mixed(sums.size()) {}
+
+    raster::Scratch scratch(std::size_t facets) {
+        if (surfaces.size() < facets) surfaces.resize(facets);
+        return {nearness.data(), seen.data(), sums.data(), mixed.data(), surfaces.data()};
+    }
+};
+
+struct StripeList {
+    Bounds bounds;
+    std::vector<std::uint32_t> facets;
+};
+
+int stripes_in(const Rect& rect) { return (rect.height + raster::kStripeRows - 1) / raster::kStripeRows; }
+
+class RasterPainter : public Painter {
+  public:
+    RasterPainter(const Face& face, const View& view, const Drawing& drawing)
+        : width_(view.width),
+          height_(view.height),
+          camera_(camera_of(view)),
+          facets_(facets_of(face)),
+          lash_(face.rest.rows(), false),
+          places_(face.rest.rows()),
+          nodes_(face.rest.rows()),
+          background_(std::size_t(view.width) * view.height),
+          draw_stripe_(kernel_of(drawing.instructions)),
+          pool_(std::max(1, drawing.threads)) {
+        prepare_nodes(face);
+        prepare_textures(face);
+        const Texture background = make_background(view);
+        std::memcpy(background_.data(), background.pixels.data(), background.pixels.size());
+        workspaces_.assign(pool_.threads(), Workspace(view.width));
+        prepare_scene(view);
+    }
+
+    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening,
+               std::uint8_t* rgba) override {
+        place(posed);
+        raster::Scene scene = scene_;
+        scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
+        scene.opening = {opening.left, opening.bottom, opening.left + opening.width,
+                         opening.bottom + opening.height};
+        const int count = list_stripes(rects, scene.opening);
+        pool_.share(count, [&](int item, int thread) {
+            const StripeList& list = stripes_[item];
+            const auto facets = static_cast<std::int32_t>(list.facets.size());
+            draw_stripe_(scene, {list.bounds, list.facets.data(), facets},
+                         workspaces_[thread].scratch(facets));
+        });
+    }
+
+  private:
+    void prepare_nodes(const Face& face) {
+        for (const FacePart& part : face.parts) {
+            if (part.material != Material::kLash) continue;
+            for (const auto& triangle : part.triangles) {
+                for (const int node : triangle) lash_[node] = true;
+            }
+        }
+        NodesF normals;
+        NodeNormals(face).compute(face.rest.cast<float>(), normals);
+        tangents_ = rest_tangents(face, normals);
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            nodes_[i].s = face.uvs(i, 0);
+            nodes_[i].t = 1 - face.uvs(i, 1);
+            nodes_[i].side = tangents_(i, 3);
+        }
+    }
+
+    void prepare_textures(const Face& face) {
+        for (int i = 0; i < kMaterials; ++i) {
+            textures_.emplace_back(pack(face.surfaces[i], static_cast<Material>(i)));
+            mipmaps_.push_back(textures_.back().mipmap());
+        }
+    }
+
+    void prepare_scene(const View& view) {
+        scene_.places = places_.data();
+        scene_.nodes = nodes_.data();
+        scene_.facets = facets_.data();
+        scene_.mipmaps = mipmaps_.data();
+        scene_.background = background_.data();
+        scene_.width = width_;
+        const auto share = static_cast<float>(pixel_size(view) / camera_.place.norm());
+        scene_.fold = kFold * share;
+        scene_.step = kStep * share;
+        // A pixel's ray ends where clip x and y are its own and w = 1.
+        const Eigen::Matrix3d clip_from_way = (Eigen::Matrix3d() << camera_.clip_from_world.block<2, 3>(0, 0),
+                                               camera_.clip_from_world.block<1, 3>(3, 0))
+                                                  .finished();
+        const Eigen::Matrix3d way_from_clip = clip_from_way.inverse();
+        const auto set = [&](int i, double x, double y, double w) {
+            const Vector3f way = -(way_from_clip * Eigen::Vector3d(x, y, w)).cast<float>();
+            std::copy(way.data(), way.data() + 3, scene_.to_camera[i]);
+        };
+        set(0, 1.0 / width_ - 1, 1.0 / height_ - 1, 1);
+        set(1, 2.0 / width_, 0, 0);
+        set(2, 0, 2.0 / height_, 0);
+    }
+
+    void place(const PosedVertices& posed) {
+        const Eigen::Matrix4f world_from_head = camera_.world_from_head.cast<float>();
+        const Eigen::Matrix4f clip_from_world = camera_.clip_from_world.cast<float>();
+        const Eigen::Matrix3f turn = world_from_head.topLeftCorner<3, 3>();
+        const Vector3f shift = world_from_head.topRightCorner<3, 1>(), eye = camera_.place.cast<float>();
+        const auto vertices = posed.vertices();
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Vertex& v = vertices[i];
+            Vector3f world = turn * Vector3f(v.place) + shift;
+            if (lash_[i]) world += kLashesBefore * (eye - world).normalized();
+            const Eigen::Vector4f clip = clip_from_world * world.homogeneous();
+            places_[i] = place_of(clip);
+            const Vector3f normal(v.normal), tangent = tangents_.row(i).head<3>().transpose();
+            const Vector3f along = (tangent - normal * normal.dot(tangent)).normalized();
+            Vector3f::Map(nodes_[i].normal) = turn * normal;
+            Vector3f::Map(nodes_[i].tangent) = turn * along;
+            nodes_[i].light = v.light;
+        }
+    }
+
+    raster::Place place_of(const Eigen::Vector4f& clip) const {
+        const float near = 1 / clip.w();
+        const float x = clip.x() * near * 0.5f * width_, y = clip.y() * near * 0.5f * height_;
+        const bool can = clip.w() > 0 && std::abs(clip.z()) <= clip.w() && std::abs(x) < raster::kGuard &&
+                         std::abs(y) < raster::kGuard;
+        if (!can) return {0, 0, 0};
+        return {static_cast<std::int32_t>(std::lrint((x + 0.5f * width_) * raster::kSteps)),
+                static_cast<std::int32_t>(std::lrint((y + 0.5f * height_) * raster::kSteps)), near};
+    }
+
+    // The stripes of the rectangles, each with what may show in it. How many there are.
+    int list_stripes(std::span<const Rect> rects, const Bounds& opening) {
+        int count = 0;
+        for (const Rect& rect : rects) count += stripes_in(rect);
+        if (int(stripes_.size()) < count) stripes_.resize(count);
+        StripeList* first = stripes_.data();
+        for (const Rect& rect : rects) {
+            const int top = rect.bottom + rect.height, right = rect.left + rect.width;
+            for (int i = 0; i < stripes_in(rect); ++i) {
+                const int bottom = rect.bottom + i * raster::kStripeRows;
+                first[i].bounds = {rect.left, bottom, right, std::min(bottom + raster::kStripeRows, top)};
+                first[i].facets.clear();
+            }
+            list_facets({rect.left, rect.bottom, right, top}, opening, first);
+            first += stripes_in(rect);
+        }
+        return count;
+    }
+
+    void list_facets(const Bounds& rect, const Bounds& opening, StripeList* stripes) const {
+        for (std::uint32_t i = 0; i < facets_.size(); ++i) {
+            const raster::Facet& facet = facets_[i];
+            const raster::Place &a = places_[facet.node[0]], &b = places_[facet.node[1]],
+                                &c = places_[facet.node[2]];
+            if (a.nearness == 0 || b.nearness == 0 || c.nearness == 0) continue;
+            if (!facet.two_sided && turned_away(a, b, c)) continue;
+            const int left = std::min({a.x, b.x, c.x}) / raster::kSteps - 1;
+            const int right = std::max({a.x, b.x, c.x}) / raster::kSteps + 1;
+            int bottom = std::min({a.y, b.y, c.y}) / raster::kSteps - 1;
+            int top = std::max({a.y, b.y, c.y}) / raster::kSteps + 1;
+            if (left >= rect.right || right < rect.left) continue;
+            bottom = std::max(bottom, rect.bottom), top = std::min(top, rect.top - 1);
+            if (facet.inside) {
+                if (left >= opening.right || right < opening.left) continue;
+                bottom = std::max(bottom, opening.bottom), top = std::min(top, opening.top - 1);
+            }
+            if (bottom > top) continue;
+            const int last = (top - rect.bottom) / raster::kStripeRows;
+            for (int s = (bottom - rect.bottom) / raster::kStripeRows; s <= last; ++s)
+                stripes[s].facets.push_back(i);
+        }
+    }
+
+    static bool turned_away(const raster::Place& a, const raster::Place& b, const raster::Place& c) {
+        return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x) <= 0;
+    }
+
+    int width_, height_;
+    Camera camera_;
+    std::vector<raster::Facet> facets_;
+    std::vector<bool> lash_;  // of each node
+    Tangents tangents_;
+    std::vector<raster::Place> places_;
+    std::vector<raster::Node> nodes_;
+    std::vector<RasterTextures> textures_;
+    std::vector<raster::Mipmap> mipmaps_;
+    std::vector<std::uint32_t> background_;
+    raster::Scene scene_{};
+    raster::DrawStripe draw_stripe_;
+    StripePool pool_;
+    std::vector<Workspace> workspaces_;
+    std::vector<StripeList> stripes_;
+};
+
+}  // namespace
+
+std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, const Drawing& drawing) {
+    return std::make_unique<RasterPainter>(face, view, drawing);
+}
+
+}  // namespace viaface

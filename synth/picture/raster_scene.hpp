@@ -1,0 +1,119 @@
+// What the rasteriser's kernels read and write: plain arrays, as the kernels are compiled once per
+// instruction set and may share no inline function with the rest of the program.
+//
+// A stripe of rows is drawn in three steps. Triangles first settle, for four samples per pixel, what is in
+// front (a visibility buffer: C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach
+// to deferred shading", JCGT 2(2), 2013). Then each pixel is shaded once for every surface that its samples
+// see, eight fragments at a time; triangles that continue each other count as one surface, so that most
+// pixels are shaded once and edges are as smooth as with multisampling. Last come the lashes, blended in
+// their order. Departures: no clipping; a triangle with a corner outside kGuard or behind the camera is not
+// drawn.
+#pragma once
+
+#include <cstdint>
+
+namespace viaface::raster {
+
+inline constexpr int kStripeRows = 16;
+inline constexpr int kSamples = 4;
+inline constexpr int kSteps = 128;   // per pixel: the grid on which corners lie, so that edges are exact
+inline constexpr int kGuard = 8192;  // pixels from the middle of the picture, either way
+inline constexpr int kLevels = 13;
+
+struct Place {
+    std::int32_t x, y;  // 1/kSteps pixel from the lower left corner
+    float nearness;     // 1 / distance along the view, 1/mm; 0 where it cannot be drawn
+};
+
+struct alignas(16) Node {
+    float normal[3];   // unit, world
+    float tangent[3];  // across the normal, world
+    float s, t;        // of the texture, from its upper left corner
+    float light;       // share of the outside light that gets here
+    float side;        // bitangent = side * normal x tangent
+    float unused[2];
+};
+
+// Texels of 8 bytes: base R G B A, detail R G B A. A border of one texel goes round: sideways the texture
+// repeats, up and down its edge does.
+struct Level {
+    const std::uint8_t* border;  // [(height + 2) x (width + 2) x 8]
+    std::int32_t width, height;
+};
+
+struct Mipmap {
+    Level levels[kLevels];
+    std::int32_t count;
+};
+
+enum class Shade : std::uint8_t { kSkin, kInside, kEye, kCloth, kLash };
+inline constexpr int kOpaqueShades = 4;
+
+struct Facet {
+    std::int32_t node[3];
+    std::uint8_t material;
+    Shade shade;
+    bool inside;  // seen through the opening alone
+    bool two_sided;
+};
+
+struct Bounds {
+    std::int32_t left, bottom, right, top;  // pixels; right and top are outside
+};
+
+struct Scene {
+    const Place* places;
+    const Node* nodes;
+    const Facet* facets;
+    const Mipmap* mipmaps;  // of each material
+    const std::uint32_t* background;
+    std::uint32_t* rgba;
+    std::int32_t width;     // of the picture, pixels
+    float to_camera[3][3];  // world: at pixel (0, 0), per pixel to the right, per pixel up; any length
+    float fold, step;       // surfaces part where slopes differ by `fold` or heights by `step`, both as a
+                            // share of the distance, per pixel
+    Bounds opening;
+};
+
+// Linear functions of the place in the picture, from the pixel at `x`, `y`.
+struct alignas(16) Surface {
+    float weight[4], weight_right[4], weight_up[4];  // of the corners, over the distance and times the area
+    float least[4];                                  // weights of what lies beyond an edge end here
+    float nearness, nearness_right, nearness_up;
+    float x, y;
+    float side;
+    const Level* level;
+    std::int32_t node[3];
+    std::uint8_t material;
+    Shade shade;
+};
+
+struct Fragment {
+    std::int32_t x, y, surface, samples;
+};
+
+struct Stripe {
+    Bounds bounds;
+    const std::uint32_t* facets;  // in drawing order, lashes last
+    std::int32_t count;
+};
+
+// For one thread. Widths are those of the picture and one pixel.
+struct Scratch {
+    float* nearness;      // [kStripeRows x (width + 1) x kSamples]
+    std::int32_t* seen;   // the same: 1 + surface, 0 for the background
+    std::uint32_t* sums;  // [kStripeRows x width], 10 bits each for red, green, blue
+    Fragment* mixed;      // [kStripeRows x width]
+    Surface* surfaces;    // as many as facets
+};
+
+using DrawStripe = void (*)(const Scene&, const Stripe&, const Scratch&);
+
+namespace baseline {
+void draw_stripe(const Scene& scene, const Stripe& stripe, const Scratch& scratch);
+}
+namespace avx2 {
+void draw_stripe(const Scene& scene, const Stripe& stripe, const Scratch& scratch);
+}
+
+}  // namespace viaface::raster

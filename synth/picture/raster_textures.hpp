@@ -1,0 +1,22 @@
+// A material's textures as the kernels fetch them: base and detail side by side, with their mip levels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "synth/picture/packed_textures.hpp"
+#include "synth/picture/raster_scene.hpp"
+
+namespace viaface {
+
+class RasterTextures {
+  public:
+    explicit RasterTextures(const PackedTextures& packed);
+    const raster::Mipmap& mipmap() const { return mipmap_; }
+
+  private:
+    std::vector<std::vector<std::uint8_t>> texels_;  // of each level
+    raster::Mipmap mipmap_{};
+};
+
+}  // namespace viaface

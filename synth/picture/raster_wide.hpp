@@ -1,0 +1,107 @@
+// Eight numbers at a time, and threes of them. Only operations that IEEE 754 fixes to the last bit: every
+// instruction set gives the same bytes. For raster_kernel.cpp alone.
+#pragma once
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include <cstdint>
+
+namespace viaface::raster::VIAFACE_KERNEL {
+namespace {
+
+#define VIAFACE_INLINE inline __attribute__((always_inline))
+
+typedef float Wide __attribute__((vector_size(32)));
+typedef std::int32_t WideInt __attribute__((vector_size(32)));
+typedef float Four __attribute__((vector_size(16)));
+
+VIAFACE_INLINE Wide wide(float v) { return Wide{} + v; }
+VIAFACE_INLINE WideInt wide(std::int32_t v) { return WideInt{} + v; }
+
+template <class Vector, class T>
+VIAFACE_INLINE Vector load(const T* from) {
+    Vector v;
+    __builtin_memcpy(&v, from, sizeof v);
+    return v;
+}
+
+template <class Vector, class T>
+VIAFACE_INLINE void store(T* to, Vector v) {
+    __builtin_memcpy(to, &v, sizeof v);
+}
+
+// Of two the second where they cannot be compared.
+VIAFACE_INLINE Wide greater(Wide a, Wide b) { return a > b ? a : b; }
+VIAFACE_INLINE Wide lesser(Wide a, Wide b) { return a < b ? a : b; }
+VIAFACE_INLINE Four greater(Four a, Four b) { return a > b ? a : b; }
+VIAFACE_INLINE Wide positive(Wide v) { return greater(v, Wide{}); }
+
+VIAFACE_INLINE Wide root(Wide v) {
+#if defined(__AVX__)
+    return _mm256_sqrt_ps(v);
+#elif defined(__SSE2__)
+    const Four low = _mm_sqrt_ps(__builtin_shufflevector(v, v, 0, 1, 2, 3));
+    const Four high = _mm_sqrt_ps(__builtin_shufflevector(v, v, 4, 5, 6, 7));
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+    for (int i = 0; i < 8; ++i) v[i] = __builtin_sqrtf(v[i]);
+    return v;
+#endif
+}
+
+// One bit per lane that is below zero.
+VIAFACE_INLINE unsigned negative_lanes(WideInt v) {
+#if defined(__AVX__)
+    return unsigned(_mm256_movemask_ps(Wide(v)));
+#elif defined(__SSE2__)
+    const Wide f = Wide(v);
+    return unsigned(_mm_movemask_ps(__builtin_shufflevector(f, f, 0, 1, 2, 3)) |
+                    _mm_movemask_ps(__builtin_shufflevector(f, f, 4, 5, 6, 7)) << 4);
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < 8; ++i) bits |= unsigned(v[i] < 0) << i;
+    return bits;
+#endif
+}
+
+// Rows become columns.
+VIAFACE_INLINE void transpose(Wide (&r)[8]) {
+    Wide a[8], b[8];
+    for (int i = 0; i < 8; i += 2) {
+        a[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+        a[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    for (int i = 0; i < 8; i += 4) {
+        b[i] = __builtin_shufflevector(a[i], a[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+        b[i + 1] = __builtin_shufflevector(a[i], a[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        b[i + 2] = __builtin_shufflevector(a[i + 1], a[i + 3], 0, 1, 8, 9, 4, 5, 12, 13);
+        b[i + 3] = __builtin_shufflevector(a[i + 1], a[i + 3], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    for (int i = 0; i < 4; ++i) {
+        r[i] = __builtin_shufflevector(b[i], b[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        r[i + 4] = __builtin_shufflevector(b[i], b[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
+struct Three {
+    Wide x, y, z;
+};
+
+VIAFACE_INLINE Three three(float x, float y, float z) { return {wide(x), wide(y), wide(z)}; }
+VIAFACE_INLINE Three operator+(const Three& a, const Three& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+VIAFACE_INLINE Three operator-(const Three& a, const Three& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+VIAFACE_INLINE Three operator*(const Three& a, const Three& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+VIAFACE_INLINE Three operator*(const Three& a, Wide b) { return {a.x * b, a.y * b, a.z * b}; }
+VIAFACE_INLINE Three operator+(const Three& a, Wide b) { return {a.x + b, a.y + b, a.z + b}; }
+VIAFACE_INLINE Three positive(const Three& a) { return {positive(a.x), positive(a.y), positive(a.z)}; }
+VIAFACE_INLINE Wide dot(const Three& a, const Three& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+VIAFACE_INLINE Three cross(const Three& a, const Three& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+VIAFACE_INLINE Three unit(const Three& a) { return a * (1.0f / root(dot(a, a))); }
+VIAFACE_INLINE Three mix(const Three& a, const Three& b, const Three& share) { return a + (b - a) * share; }
+
+}  // namespace
+}  // namespace viaface::raster::VIAFACE_KERNEL

@@ -1,0 +1,37 @@
+// A few threads that share numbered work; the caller is one of them.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace viaface {
+
+class StripePool {
+  public:
+    using Work = std::function<void(int item, int thread)>;  // may not throw
+
+    explicit StripePool(int threads);
+    ~StripePool();
+    StripePool(const StripePool&) = delete;
+    StripePool& operator=(const StripePool&) = delete;
+
+    int threads() const { return static_cast<int>(workers_.size()) + 1; }
+    // Does items 0 to `items` - 1, each once; returns when all are done.
+    void share(int items, const Work& work);
+
+  private:
+    void serve(int thread);
+    void take_items(std::unique_lock<std::mutex>& lock, int thread);
+
+    std::mutex mutex_;
+    std::condition_variable called_, done_;
+    const Work* work_ = nullptr;
+    int next_ = 0, items_ = 0, unfinished_ = 0;
+    bool over_ = false;
+    std::vector<std::thread> workers_;
+};
+
+}  // namespace viaface
