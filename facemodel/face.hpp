@@ -72,7 +72,8 @@ struct Face {
     Eigen::VectorXd
         mean;  // [3 x nodes], mm: mean over the postures (eq. 2); equals rest where modes do not reach
     Eigen::MatrixXd modes;  // [3 x nodes, modes], orthonormal over the nodes driven by kModes, ordered by
-                            // variance (eqs. 4-5)
+                            // variance (eqs. 4-5); other rows: how the rest follows,
+                            // for viewers
     Eigen::VectorXd mode_variance;   // [modes], mm^2
     std::vector<NamedShape> shapes;  // blend shapes by name on this mesh, blinks among them
     LipGrid lips;

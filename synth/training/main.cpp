@@ -10,6 +10,7 @@
 #include "facemodel/gltf.hpp"
 #include "synth/training/bake.hpp"
 #include "synth/training/corpus.hpp"
+#include "synth/training/follow_modes.hpp"
 #include "synth/training/learn.hpp"
 #include "synth/training/left_out.hpp"
 #include "synth/training/make_face.hpp"
@@ -77,8 +78,10 @@ void make_shapes(const BlendHead& head, const fs::path& output) {
     Face face = make_face(source);
     tell("baking textures");
     bake_surfaces(face, landmarks_of(head));
+    const PoseTraining training = pose_training(source, face);
+    follow_modes(face, source, training);
     write_whole(output / "face.glb", write_glb(face, kCopyright));
-    write_whole(output / "estimators.bin", write_training(pose_training(source, face)));
+    write_whole(output / "estimators.bin", write_training(training));
 }
 
 void make_codex(const BlendHead& head, const fs::path& corpus, const fs::path& output) {
