@@ -35,9 +35,10 @@ Container read_all(const fs::path& path, const std::string& field, std::size_t l
 
 }  // namespace
 
-WholeFile::WholeFile(fs::path final_path) : final_(std::move(final_path)), partial_(beside(final_)) {
-    if (!std::ofstream(partial_, std::ios::binary)) {
-        throw InputError("output", final_.string(), "a file in an existing folder that can be written to");
+WholeFile::WholeFile(fs::path final_path, const std::string& field)
+    : final_(std::move(final_path)), partial_(beside(final_)) {
+    if (fs::is_directory(final_) || !std::ofstream(partial_, std::ios::binary)) {
+        throw InputError(field, final_.string(), "a file in an existing folder that can be written to");
     }
 }
 

@@ -12,10 +12,10 @@
 namespace viaface {
 
 // A name beside `final_path` to write to; commit() renames it into place, destruction without commit removes
-// it. InputError("output", ...) when the folder cannot be written to.
+// it. InputError(field, ...) when the folder cannot be written to, or the place is a folder's.
 class WholeFile {
   public:
-    explicit WholeFile(std::filesystem::path final_path);
+    explicit WholeFile(std::filesystem::path final_path, const std::string& field = "output");
     ~WholeFile();
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,31 @@
 namespace {
 
 constexpr int kBadInput = 2;
+
+[[noreturn]] void refuse_command(const CLI::App& program) {
+    std::string commands;
+    for (const CLI::App* command : program.get_subcommands({}))
+        commands += (commands.empty() ? "" : ", ") + command->get_name();
+    const auto given = program.remaining();
+    throw viaface::InputError("command", given.empty() ? "" : given.front(), commands);
+}
+
+// What the option that a message is about would take.
+std::string allowed_instead(const CLI::App& program, const std::string& message) {
+    std::string allowed, called = "viaface";
+    const CLI::App* app = &program;
+    while (!app->get_subcommands().empty()) {
+        app = app->get_subcommands().front();
+        called += " " + app->get_name();
+    }
+    for (const CLI::Option* option : app->get_options()) {
+        if (message.find(option->get_name() + " ") == std::string::npos &&
+            message.find(option->get_name() + ":") == std::string::npos)
+            continue;
+        allowed += "allowed: " + option->get_name() + " takes " + option->get_description() + "\n";
+    }
+    return allowed + "See " + called + " --help\n";
+}
 
 int run(int argc, char** argv) {
     CLI::App program(
@@ -28,8 +54,12 @@ int run(int argc, char** argv) {
     }
     try {
         program.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        return program.exit(asked, std::cout, std::cerr);
     } catch (const CLI::ParseError& error) {
-        return program.exit(error, std::cout, std::cerr) == 0 ? 0 : kBadInput;
+        if (program.get_subcommands().empty()) refuse_command(program);
+        std::fprintf(stderr, "viaface: %s\n%s", error.what(), allowed_instead(program, error.what()).c_str());
+        return kBadInput;
     }
     for (const auto& [app, command] : commands) {
         if (app->parsed()) return command();

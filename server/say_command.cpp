@@ -3,8 +3,10 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <iterator>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
@@ -57,57 +59,101 @@ class MotionRows {
         time_s_.push_back(time_s);
         for (const double mm : points) mm_.push_back(std::round(mm * 1e4) / 1e4);
     }
-    void write(const std::string& path, const std::string& what) const {
+    std::string text(const std::string& what) const {
         const auto rows = static_cast<Eigen::Index>(time_s_.size());
         const Motion motion{time_s_, Eigen::Map<const RowMatrix>(mm_.data(), rows, kCoordinates)};
-        write_motion_csv(path, motion, {what, "mm, head frame: x to the talker's left, y up, z forward"});
+        return format_motion_csv(motion, {what, "mm, head frame: x to the talker's left, y up, z forward"});
     }
 
   private:
     std::vector<double> time_s_, mm_;
 };
 
+// A file beside the film: its place is taken before any work is done.
+class SideFile {
+  public:
+    SideFile(const std::string& option, const std::string& path) {
+        if (!path.empty()) file_.emplace(path, option);
+    }
+    bool wanted() const { return file_.has_value(); }
+    void write(std::string_view text) {
+        std::ofstream out(file_->path(), std::ios::binary | std::ios::trunc);
+        if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush())
+            throw std::runtime_error("writing " + file_->path().string() + " failed");
+    }
+    void commit() {
+        if (file_) file_->commit();
+    }
+
+  private:
+    std::optional<WholeFile> file_;
+};
+
 // What goes beside the film.
 class SideFiles {
   public:
-    explicit SideFiles(const SayOptions& options) : options_(options) {}
+    explicit SideFiles(const SayOptions& options)
+        : options_(options),
+          labels_("--labels", options.labels),
+          motion_("--motion", options.motion),
+          commanded_("--commanded", options.commanded),
+          json_("--json", options.json == "-" ? "" : options.json) {}
 
     void add(const DrawnFrame& frame) {
-        if (!options_.motion.empty()) drawn_.add(frame.time_s, frame.drawn);
-        if (!options_.commanded.empty()) commanded_.add(frame.time_s, frame.commanded);
+        if (motion_.wanted()) drawn_rows_.add(frame.time_s, frame.drawn);
+        if (commanded_.wanted()) commanded_rows_.add(frame.time_s, frame.commanded);
     }
 
     void add(const Recital& recital, std::int64_t first_sample) {
         timeline_.add(recital, first_sample);
-        append_to(labels_, recital.utterance, first_sample);
+        append_to(grid_, recital.utterance, first_sample);
     }
 
-    void write(const SayReport& report) const {
-        if (!options_.motion.empty())
-            drawn_.write(options_.motion, "points as drawn, read off the posed mesh after contact");
-        if (!options_.commanded.empty())
-            commanded_.write(options_.commanded, "points as commanded by the spline");
-        if (!options_.labels.empty())
-            write_whole(options_.labels, std::string_view(write_text_grid(labels_)));
-        if (options_.json.empty()) return;
-        const auto json = report_json(options_.request.say, options_.request.talker, timeline_, report);
-        const std::string text = json.dump(2) + "\n";
-        if (options_.json == "-") {
-            std::cout << text << std::flush;
-        } else {
-            write_whole(options_.json, std::string_view(text));
-        }
+    void write(const SayReport& report) {
+        if (labels_.wanted()) labels_.write(write_text_grid(grid_));
+        if (motion_.wanted())
+            motion_.write(drawn_rows_.text("points as drawn, read off the posed mesh after contact"));
+        if (commanded_.wanted()) commanded_.write(commanded_rows_.text("points as commanded by the spline"));
+        if (!options_.json.empty()) write_report(report);
+        for (SideFile* file : {&labels_, &motion_, &commanded_, &json_}) file->commit();
     }
 
   private:
+    void write_report(const SayReport& report) {
+        const auto json = report_json(options_.request.say, options_.request.talker, timeline_, report);
+        const std::string text = json.dump(2) + "\n";
+        if (json_.wanted()) {
+            json_.write(text);
+        } else {
+            std::cout << text << std::flush;
+        }
+    }
+
     const SayOptions& options_;
-    MotionRows drawn_, commanded_;
+    SideFile labels_, motion_, commanded_, json_;
+    MotionRows drawn_rows_, commanded_rows_;
     Timeline timeline_;
-    TextGrid labels_;
+    TextGrid grid_;
 };
 
 void show_progress(double share) {
     std::fprintf(stderr, "\rviaface: %3.0f%% drawn%s", std::floor(share * 100), share >= 1 ? "\n" : "");
+}
+
+// Every result has a place of its own.
+void check_places(const SayOptions& options) {
+    if (options.output == "-" && options.json == "-") {
+        throw InputError("--json", "-", "a file, when the film goes to stdout");
+    }
+    std::set<std::string> taken{options.output};
+    const std::pair<const char*, const std::string&> side_files[] = {{"--labels", options.labels},
+                                                                     {"--motion", options.motion},
+                                                                     {"--commanded", options.commanded},
+                                                                     {"--json", options.json}};
+    for (const auto& [option, path] : side_files) {
+        if (!path.empty() && !taken.insert(path).second)
+            throw InputError(option, path, "a file that nothing else is written to");
+    }
 }
 
 void complete(SayOptions& options) {
@@ -116,9 +162,7 @@ void complete(SayOptions& options) {
     if (!options.background.empty()) say_request.view.background = parse_background(options.background);
     say_request.fps = frame_rate(options.fps);
     check(say_request.view);
-    if (options.output == "-" && options.json == "-") {
-        throw InputError("--json", "-", "a file, when the film goes to stdout");
-    }
+    check_places(options);
     if (say_request.speech.text == "-") {
         say_request.speech.text.assign(std::istreambuf_iterator<char>(std::cin), {});
     }
@@ -128,8 +172,8 @@ int run_say(SayOptions& options) {
     complete(options);
     const Script checked(options.request.say.speech);
     const auto talker = talker_at(options.request.talker);
-    const auto film = film_for(options);
     SideFiles beside(options);
+    const auto film = film_for(options);
     Onlookers onlookers;
     onlookers.frame = [&](const DrawnFrame& frame) { beside.add(frame); };
     onlookers.recital = [&](const Recital& recital, std::int64_t first_sample) {
@@ -171,7 +215,9 @@ Command add_say(CLI::App& program) {
     app->add_option("--roll", view.roll, "degrees counter-clockwise in the picture, -180 to 180");
     app->add_option("--background", options->background,
                     "#rrggbb, black, white, grey, green or blue; a soft grey when absent");
-    app->add_option("--seed", options->request.say.seed, "of the blinks")->capture_default_str();
+    app->add_option("--seed", options->request.say.seed, "of the blinks, a whole number from 0")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app->add_option("--labels", options->labels, "write words and phones as a Praat TextGrid");
     app->add_option("--motion", options->motion,
                     "write the points as drawn (CSV, mm), read off the posed mesh after contact");
