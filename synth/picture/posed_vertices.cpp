@@ -1,6 +1,7 @@
 #include "synth/picture/posed_vertices.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -11,6 +12,12 @@ namespace {
 
 float grained(double mm) {
     return static_cast<float>(std::nearbyint(mm / Portrait::kGrain) * Portrait::kGrain);
+}
+
+// Pixels far outside stay numbers that an int can hold.
+float within_reach(float pixel) {
+    constexpr float kFar = 1e6f;
+    return pixel > -kFar ? std::min(pixel, kFar) : -kFar;
 }
 
 Eigen::Matrix4f clip_from_head(const View& view) {
@@ -56,7 +63,10 @@ void PosedVertices::pose(const Nodes& posed) {
                         {normals_(i, 0), normals_(i, 1), normals_(i, 2)},
                         light_[i]};
         const Eigen::Vector4f clip = clip_from_head_ * places_.row(i).transpose().homogeneous();
-        pixels_[i] = ((clip.head<2>() / clip.w()).array() + 1).matrix().cwiseProduct(half_picture_);
+        pixels_[i] = ((clip.head<2>() / clip.w()).array() + 1)
+                         .matrix()
+                         .cwiseProduct(half_picture_)
+                         .unaryExpr(&within_reach);
     }
 }
 

@@ -12,8 +12,8 @@ constexpr int kBlock = 16;  // pixels: edge functions stay within 32 bits
 // Two pixels' samples fill a vector: places from the first pixel's middle, in eighths of a pixel.
 constexpr WideInt kRightEighths = {-1, 3, -3, 1, 7, 11, 5, 9};
 constexpr WideInt kUpEighths = {-3, -1, 1, 3, -3, -1, 1, 3};
-constexpr float kSampleRight[kSamples] = {-0.125f, 0.375f, -0.375f, 0.125f};
-constexpr float kSampleUp[kSamples] = {-0.375f, -0.125f, 0.125f, 0.375f};
+constexpr Four kSampleRight = {-0.125f, 0.375f, -0.375f, 0.125f};
+constexpr Four kSampleUp = {-0.375f, -0.125f, 0.125f, 0.375f};
 
 template <class T>
 VIAFACE_INLINE T smaller(T a, T b) {
@@ -23,7 +23,7 @@ template <class T>
 VIAFACE_INLINE T larger(T a, T b) {
     return a > b ? a : b;
 }
-VIAFACE_INLINE float magnitude(float v) { return v < 0 ? -v : v; }
+VIAFACE_INLINE Four magnitude(Four v) { return greater(v, -v); }
 
 // Positive on the left of the way from `a` to `b`, on the grid.
 struct Edge {
@@ -51,7 +51,7 @@ struct Prepared {
 // The level whose texels are nearest to a pixel in size, along the axis where they are most.
 VIAFACE_INLINE const Level* level_of(const Mipmap& mipmap, const Node* const (&n)[3], const Edge (&edges)[3],
                                      float area) {
-    const float width = float(mipmap.levels[0].width), height = float(mipmap.levels[0].height);
+    const float width = mipmap.levels[0].columns, height = mipmap.levels[0].rows;
     float right_s = 0, right_t = 0, up_s = 0, up_t = 0;
     for (int i = 0; i < 3; ++i) {
         const float right = float(edges[i].right), up = float(edges[i].up);
@@ -108,7 +108,7 @@ VIAFACE_INLINE Prepared prepare(const Scene& scene, const Bounds& seen, const Fa
     const Node* const nodes[3] = {scene.nodes + n0, scene.nodes + n1, scene.nodes + n2};
     s.side = nodes[0]->side;
     s.level = level_of(scene.mipmaps[facet.material], nodes, p.edges, twice_area);
-    s.material = facet.material;
+    s.material_number = float(facet.material);
     s.shade = facet.shade;
     return p;
 }
@@ -197,7 +197,7 @@ class StripeDrawing {
         }
     }
 
-    VIAFACE_INLINE Prepared prepare(std::int32_t i) {
+    Prepared prepare(std::int32_t i) {
         const Facet& facet = scene_.facets[stripe_.facets[i]];
         return VIAFACE_KERNEL::prepare(scene_, facet.inside ? common(bounds_, scene_.opening) : bounds_,
                                        facet, scratch_.surfaces[i]);
@@ -253,45 +253,37 @@ class StripeDrawing {
         return (rgba & 255) | (rgba >> 8 & 255) << 10 | (rgba >> 16 & 255) << 20;
     }
 
-    // Whether the surface seen at a sample goes on to what another sample sees.
-    VIAFACE_INLINE bool continues(std::int32_t one, std::int32_t other, float right, float up,
-                                  float near) const {
-        const Surface &a = scratch_.surfaces[one], &b = scratch_.surfaces[other];
-        if (a.material != b.material) return false;
-        const float expected = a.nearness + (right - a.x) * a.nearness_right + (up - a.y) * a.nearness_up;
-        return magnitude(expected - near) < scene_.step * near &&
-               magnitude(a.nearness_right - b.nearness_right) + magnitude(a.nearness_up - b.nearness_up) <
-                   scene_.fold * near;
+    // Shares a pixel's samples out among surfaces that do not go on in each other: another material, a fold
+    // or a step is between them.
+    __attribute__((noinline)) void resolve_mixed(std::int32_t x, std::int32_t y,
+                                                 const std::int32_t* samples) {
+        const auto seen = load<FourInt>(samples);
+        const auto near = load<Four>(scratch_.nearness + (samples - scratch_.seen));
+        Four planes[kSamples];
+        for (int i = 0; i < kSamples; ++i) planes[i] = load<Four>(plane_of(larger(samples[i], 1)));
+        transpose(planes);
+        const Four reach = scene_.step * near, fold = scene_.fold * near;
+        unsigned left = negative_lanes(seen > 0);
+        std::uint32_t& sum = scratch_.sums[pixel(x, y)];
+        sum = std::uint32_t(kSamples - __builtin_popcount(left)) * spread(background(x, y));
+        for (bool first = true; left != 0; first = false) {
+            const std::int32_t id = samples[__builtin_ctz(left)];
+            const Surface& s = scratch_.surfaces[id - 1];
+            const Four gap = s.nearness + (kSampleRight + (float(x) - s.x)) * s.nearness_right +
+                             (kSampleUp + (float(y) - s.y)) * s.nearness_up - near;
+            const Four turn = magnitude(planes[1] - s.nearness_right) + magnitude(planes[2] - s.nearness_up);
+            const FourInt goes_on =
+                (magnitude(gap) < reach) & (turn < fold) & (planes[3] == s.material_number);
+            const unsigned one = negative_lanes(goes_on | (seen == id)) & left;
+            const std::int32_t count = __builtin_popcount(one);
+            left &= ~one;
+            if (first && count < kSamples) scratch_.mixed[mixed_++] = {x, y, 0, 0};
+            push({x, y, id - 1, count});
+        }
     }
 
-    VIAFACE_INLINE void resolve_mixed(std::int32_t x, std::int32_t y, const std::int32_t* seen) {
-        const float* const near = scratch_.nearness + (seen - scratch_.seen);
-        Fragment found[kSamples];
-        int count = 0;
-        std::int32_t empty = 0;
-        unsigned left = 0xf;
-        for (int i = 0; i < kSamples; ++i) {
-            if ((left >> i & 1) == 0) continue;
-            if (seen[i] == 0) {
-                ++empty;
-                continue;
-            }
-            Fragment fragment{x, y, seen[i] - 1, 1};
-            for (int j = i + 1; j < kSamples; ++j) {
-                if ((left >> j & 1) == 0 || seen[j] == 0) continue;
-                if (seen[j] != seen[i] && !continues(seen[i] - 1, seen[j] - 1, float(x) + kSampleRight[j],
-                                                     float(y) + kSampleUp[j], near[j]))
-                    continue;
-                left &= ~(1u << j);
-                ++fragment.samples;
-            }
-            found[count++] = fragment;
-        }
-        if (found[0].samples < kSamples) {
-            scratch_.mixed[mixed_++] = found[0];
-            scratch_.sums[pixel(x, y)] = std::uint32_t(empty) * spread(background(x, y));
-        }
-        for (int i = 0; i < count; ++i) push(found[i]);
+    VIAFACE_INLINE const float* plane_of(std::int32_t id) const {
+        return &scratch_.surfaces[id - 1].nearness;
     }
 
     VIAFACE_INLINE void push(const Fragment& fragment) {
@@ -354,8 +346,9 @@ class StripeDrawing {
 
     // What the shaders need of each fragment, at its pixel's middle.
     VIAFACE_INLINE Lit light(const Fragment* fragments) const {
-        Wide places[8], texels[8];
+        Wide places[8];
         float lights[8], sides[8], x[8], y[8];
+        const Level* levels[8];
         for (int lane = 0; lane < 8; ++lane) {
             const Fragment& f = fragments[lane];
             const Surface& s = scratch_.surfaces[f.surface];
@@ -370,11 +363,11 @@ class StripeDrawing {
                            load<Wide>(c.normal) * weight[2];
             lights[lane] = a.light * weight[0] + b.light * weight[1] + c.light * weight[2];
             sides[lane] = s.side;
-            texels[lane] = fetch(*s.level, places[lane][6], places[lane][7]);
+            levels[lane] = s.level;
         }
         transpose(places);
-        transpose(texels);
-        for (Wide& channel : texels) channel *= 1.0f / 255;
+        Wide texels[8];
+        fetch(levels, places[6], places[7], texels);
         const Wide right = load<Wide>(x), up = load<Wide>(y);
         const auto& eye = scene_.to_camera;
         const Three to_camera = unit({eye[0][0] + right * eye[1][0] + up * eye[2][0],
@@ -393,25 +386,31 @@ class StripeDrawing {
                 texels[7]};
     }
 
-    typedef std::uint8_t Texel __attribute__((vector_size(8)));
-
-    static VIAFACE_INLINE Wide texel(const std::uint8_t* at) {
-        return __builtin_convertvector(load<Texel>(at), Wide);
-    }
-
-    // Bilinear; sideways the texture repeats.
-    static VIAFACE_INLINE Wide fetch(const Level& level, float s, float t) {
-        s -= float(std::int32_t(smaller(larger(s, -1e6f), 1e6f)));
-        s = s < 0 ? s + 1 : s;
-        const float column = larger(0.0f, smaller(1.0f, s)) * float(level.width) + 0.5f;
-        const float row = larger(0.0f, smaller(1.0f, t)) * float(level.height) + 0.5f;
-        const auto left = std::int32_t(column), upper = std::int32_t(row);
-        const float share = column - float(left), lower_share = row - float(upper);
-        const std::ptrdiff_t stride = std::ptrdiff_t(level.width + 2) * 8;
-        const std::uint8_t* const at = level.border + upper * stride + std::ptrdiff_t(left) * 8;
-        const Wide a = texel(at), b = texel(at + 8), c = texel(at + stride), d = texel(at + stride + 8);
-        const Wide high = a + (b - a) * share, low = c + (d - c) * share;
-        return high + (low - high) * lower_share;
+    // Channel by channel, 0 to 1; bilinear; sideways the texture repeats.
+    static VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide (&channels)[8]) {
+        Wide width, height;
+        for (int lane = 0; lane < 8; ++lane) {
+            width[lane] = levels[lane]->columns;
+            height[lane] = levels[lane]->rows;
+        }
+        s = lesser(greater(s, wide(-1e6f)), wide(1e6f));
+        const Wide column = (s - floor(s)) * width + 0.5f;
+        const Wide row = lesser(positive(t), wide(1.0f)) * height + 0.5f;
+        const Wide left = floor(column), upper = floor(row);
+        const Wide column_share = column - left, row_share = row - upper;
+        const WideInt texel = __builtin_convertvector(left, WideInt),
+                      line = __builtin_convertvector(upper, WideInt);
+        for (int lane = 0; lane < 8; ++lane) {
+            const std::ptrdiff_t stride = levels[lane]->stride;
+            const std::uint8_t* const at =
+                levels[lane]->border + line[lane] * stride + std::ptrdiff_t(texel[lane]) * 8;
+            const Wide a = from_bytes(at), b = from_bytes(at + 8), c = from_bytes(at + stride),
+                       d = from_bytes(at + stride + 8);
+            const Wide high = a + (b - a) * column_share[lane], low = c + (d - c) * column_share[lane];
+            channels[lane] = high + (low - high) * row_share[lane];
+        }
+        transpose(channels);
+        for (int i = 0; i < 8; ++i) channels[i] *= 1.0f / 255;
     }
 
     void blend(std::int32_t first) {

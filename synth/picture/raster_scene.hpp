@@ -10,6 +10,7 @@
 // drawn.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace viaface::raster {
@@ -38,7 +39,8 @@ struct alignas(16) Node {
 // repeats, up and down its edge does.
 struct Level {
     const std::uint8_t* border;  // [(height + 2) x (width + 2) x 8]
-    std::int32_t width, height;
+    std::ptrdiff_t stride;       // bytes from a row to the next
+    float columns, rows;         // without the border
 };
 
 struct Mipmap {
@@ -79,12 +81,11 @@ struct Scene {
 struct alignas(16) Surface {
     float weight[4], weight_right[4], weight_up[4];  // of the corners, over the distance and times the area
     float least[4];                                  // weights of what lies beyond an edge end here
-    float nearness, nearness_right, nearness_up;
+    float nearness, nearness_right, nearness_up, material_number;
     float x, y;
     float side;
     const Level* level;
     std::int32_t node[3];
-    std::uint8_t material;
     Shade shade;
 };
 

@@ -68,7 +68,8 @@ RasterTextures::RasterTextures(const PackedTextures& packed) {
         const bool last = (canvas.width == 1 && canvas.height == 1) || mipmap_.count + 1 == raster::kLevels;
         Canvas smaller = last ? Canvas(1, 1) : halved(canvas);
         texels_.push_back(std::move(canvas.texels));
-        mipmap_.levels[mipmap_.count++] = {texels_.back().data(), canvas.width, canvas.height};
+        mipmap_.levels[mipmap_.count++] = {texels_.back().data(), std::ptrdiff_t(canvas.width + 2) * kTexel,
+                                           float(canvas.width), float(canvas.height)};
         if (last) return;
         canvas = std::move(smaller);
     }

@@ -16,6 +16,7 @@ namespace {
 typedef float Wide __attribute__((vector_size(32)));
 typedef std::int32_t WideInt __attribute__((vector_size(32)));
 typedef float Four __attribute__((vector_size(16)));
+typedef std::int32_t FourInt __attribute__((vector_size(16)));
 
 VIAFACE_INLINE Wide wide(float v) { return Wide{} + v; }
 VIAFACE_INLINE WideInt wide(std::int32_t v) { return WideInt{} + v; }
@@ -51,6 +52,29 @@ VIAFACE_INLINE Wide root(Wide v) {
 #endif
 }
 
+// Eight bytes as numbers.
+VIAFACE_INLINE Wide from_bytes(const std::uint8_t* from) {
+#if defined(__AVX2__)
+    return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+#elif defined(__SSE2__)
+    const __m128i none = _mm_setzero_si128();
+    const __m128i pairs = _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)), none);
+    const Four low = _mm_cvtepi32_ps(_mm_unpacklo_epi16(pairs, none));
+    const Four high = _mm_cvtepi32_ps(_mm_unpackhi_epi16(pairs, none));
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+    Wide v;
+    for (int i = 0; i < 8; ++i) v[i] = from[i];
+    return v;
+#endif
+}
+
+// The greatest whole number that is not above v, for v within 2^31.
+VIAFACE_INLINE Wide floor(Wide v) {
+    const Wide whole = __builtin_convertvector(__builtin_convertvector(v, WideInt), Wide);
+    return whole > v ? whole - 1.0f : whole;
+}
+
 // One bit per lane that is below zero.
 VIAFACE_INLINE unsigned negative_lanes(WideInt v) {
 #if defined(__AVX__)
@@ -62,6 +86,16 @@ VIAFACE_INLINE unsigned negative_lanes(WideInt v) {
 #else
     unsigned bits = 0;
     for (int i = 0; i < 8; ++i) bits |= unsigned(v[i] < 0) << i;
+    return bits;
+#endif
+}
+
+VIAFACE_INLINE unsigned negative_lanes(FourInt v) {
+#if defined(__SSE2__)
+    return unsigned(_mm_movemask_ps(Four(v)));
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < 4; ++i) bits |= unsigned(v[i] < 0) << i;
     return bits;
 #endif
 }
@@ -83,6 +117,17 @@ VIAFACE_INLINE void transpose(Wide (&r)[8]) {
         r[i] = __builtin_shufflevector(b[i], b[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
         r[i + 4] = __builtin_shufflevector(b[i], b[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
     }
+}
+
+VIAFACE_INLINE void transpose(Four (&r)[4]) {
+    const Four a = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5),
+               b = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5),
+               c = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7),
+               d = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+    r[0] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+    r[1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+    r[2] = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+    r[3] = __builtin_shufflevector(c, d, 2, 3, 6, 7);
 }
 
 struct Three {

@@ -13,20 +13,14 @@ namespace {
 
 using testing::add_ball;
 using testing::add_square;
+using testing::bytes;
 using testing::kMiddleY;
 using testing::kMiddleZ;
+using testing::two_balls;
+using testing::wandering;
 
 const View kSmallBlack{.width = 256, .height = 256, .background = Rgb{0, 0, 0}};
 constexpr double kMillimetresPerPixel = 282.0 / 256;
-
-std::vector<std::uint8_t> bytes(const FrameView& view) {
-    std::vector<std::uint8_t> all;
-    for (int y = 0; y < view.height; ++y) {
-        const std::uint8_t* row = view.top_row + y * view.stride;
-        all.insert(all.end(), row, row + 4 * view.width);
-    }
-    return all;
-}
 
 // Pixels covered by the face: over white and over black a pixel differs by what shows through.
 double covered(const Face& face, View view) {
@@ -95,28 +89,6 @@ TEST(Portrait, SeenFromBehindShowsNothing) {
     Portrait portrait(face, view);
     const std::vector<std::uint8_t> all = bytes(portrait.draw(face.rest));
     for (std::size_t i = 0; i < all.size(); i += 4) ASSERT_EQ(all[i], 0);
-}
-
-Face two_balls() {
-    Face face;
-    add_ball(face, Material::kSkin, 80, {0, kMiddleY, kMiddleZ}, 16);
-    add_ball(face, Material::kTongue, 20, {0, kMiddleY - 30, kMiddleZ + 75}, 8);
-    add_ball(face, Material::kEye, 12, {30, kMiddleY + 30, kMiddleZ + 70}, 8);
-    add_ball(face, Material::kLash, 6, {30, kMiddleY + 45, kMiddleZ + 78}, 4);
-    return face;
-}
-
-// The small balls wander, now and then one stands still.
-Nodes wandering(const Face& face, int step) {
-    Nodes posed = face.rest;
-    const FacePart& tongue = face.parts[1];
-    posed.middleRows(tongue.first_node, tongue.nodes).col(1).array() += 25 * std::sin(0.9 * step);
-    posed.middleRows(tongue.first_node, tongue.nodes).col(0).array() += 0.3 * step;
-    if (step % 3 == 0) {
-        const FacePart& eye = face.parts[2];
-        posed.middleRows(eye.first_node, eye.nodes).col(0).array() -= 5.0 * step;
-    }
-    return posed;
 }
 
 TEST(Portrait, DrawingWhatChangedEqualsDrawingAll) {

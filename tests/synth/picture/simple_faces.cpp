@@ -44,4 +44,34 @@ void add_ball(Face& face, Material material, double radius, const Eigen::Vector3
     add_part(face, material, nodes, triangles);
 }
 
+Face two_balls() {
+    Face face;
+    add_ball(face, Material::kSkin, 80, {0, kMiddleY, kMiddleZ}, 16);
+    add_ball(face, Material::kTongue, 20, {0, kMiddleY - 30, kMiddleZ + 75}, 8);
+    add_ball(face, Material::kEye, 12, {30, kMiddleY + 30, kMiddleZ + 70}, 8);
+    add_ball(face, Material::kLash, 6, {30, kMiddleY + 45, kMiddleZ + 78}, 4);
+    return face;
+}
+
+Nodes wandering(const Face& face, int step) {
+    Nodes posed = face.rest;
+    const FacePart& tongue = face.parts[1];
+    posed.middleRows(tongue.first_node, tongue.nodes).col(1).array() += 25 * std::sin(0.9 * step);
+    posed.middleRows(tongue.first_node, tongue.nodes).col(0).array() += 0.3 * step;
+    if (step % 3 == 0) {
+        const FacePart& eye = face.parts[2];
+        posed.middleRows(eye.first_node, eye.nodes).col(0).array() -= 5.0 * step;
+    }
+    return posed;
+}
+
+std::vector<std::uint8_t> bytes(const FrameView& view) {
+    std::vector<std::uint8_t> all;
+    for (int y = 0; y < view.height; ++y) {
+        const std::uint8_t* row = view.top_row + y * view.stride;
+        all.insert(all.end(), row, row + 4 * view.width);
+    }
+    return all;
+}
+
 }  // namespace viaface::testing

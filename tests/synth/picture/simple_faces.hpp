@@ -1,7 +1,11 @@
 // Faces of few triangles for tests of the picture: squares and balls, each a part of one colour.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "facemodel/face.hpp"
+#include "synth/film/frame.hpp"
 
 namespace viaface::testing {
 
@@ -14,5 +18,13 @@ void add_square(Face& face, Material material, double side, double nearer = 0);
 
 // A ball of rings x segments quads.
 void add_ball(Face& face, Material material, double radius, const Eigen::Vector3d& middle, int rings = 12);
+
+// A large ball of skin with three small ones before it: tongue, eye and lash.
+Face two_balls();
+
+// The small balls wander, now and then one stands still.
+Nodes wandering(const Face& face, int step);
+
+std::vector<std::uint8_t> bytes(const FrameView& view);  // top row first
 
 }  // namespace viaface::testing
