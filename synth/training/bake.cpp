@@ -89,16 +89,6 @@ Vector3f apex(const Face& face, const FacePart& part) {
     return face.rest.row(part.first_node + foremost).transpose().cast<float>();
 }
 
-// Both eyes share a texture, though noses stand on either side.
-void share_between_sides(std::vector<float>& open, int side) {
-    for (std::size_t row = 0; row < open.size(); row += side) {
-        for (int x = 0; x < side / 2; ++x) {
-            float &one = open[row + x], &other = open[row + side - 1 - x];
-            one = other = std::max(one, other);
-        }
-    }
-}
-
 struct Recipe {
     Material material;
     int side;  // texels
@@ -106,10 +96,12 @@ struct Recipe {
     HeightAt height;  // none: a smooth surface
 };
 
-std::vector<Recipe> recipes(const Face& face, const SkinPaint& skin) {
+std::vector<Recipe> recipes(const Face& face, const SkinPaint& skin, const EyeLids& lids) {
     const PaintAt skin_paint = [&](const Texel& t, float open) { return skin.at(t, open); };
     const HeightAt skin_height = [&](const Vector3f& p) { return skin.height(p); };
-    const PaintAt eye = [&](const Texel& t, float) { return eye_paint(t, apex(face, face.parts[t.part])); };
+    const PaintAt eye = [&](const Texel& t, float) {
+        return eye_paint(t, apex(face, face.parts[t.part]), lids);
+    };
     return {{Material::kSkin, 1024, skin_paint, skin_height},
             {Material::kLips, 512, skin_paint, skin_height},
             {Material::kEye, 512, eye, nullptr},
@@ -129,14 +121,16 @@ bool has(const Face& face, Material material) {
 }  // namespace
 
 void bake_surfaces(Face& face, const Landmarks& landmarks) {
+    constexpr std::size_t kLeftEye = 42;
     const SkinPaint skin(face, landmarks);
-    for (const auto& [material, side, paint, height] : recipes(face, skin)) {
+    EyeLids lids;
+    for (std::size_t k = 0; k < lids.size(); ++k) lids[k] = landmarks[kLeftEye + k].cast<float>();
+    for (const auto& [material, side, paint, height] : recipes(face, skin, lids)) {
         if (!has(face, material)) continue;
         Surface& surface = face.surfaces[static_cast<std::size_t>(material)];
         const TexelGrid grid = lay_out(face, material, side);
         std::vector<float> open = lit_from_outside(material) ? openness(face, casters(face, material), grid)
                                                              : std::vector<float>(grid.texels.size(), 1.0f);
-        if (material == Material::kEye) share_between_sides(open, side);
         paint_surface(surface, grid, open, paint, material == Material::kLash);
         if (height) surface.normal = normal_texture(grid, height);
     }

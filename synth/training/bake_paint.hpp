@@ -44,7 +44,11 @@ class SkinPaint {
     std::array<Eigen::Vector3f, LipGrid::kColumns> border_;
 };
 
-Paint eye_paint(const Texel& texel, const Eigen::Vector3f& apex);  // apex: the foremost place of the eyeball
+// The left eye's lids: inner corner, two of the upper lid, outer corner, two of the lower lid.
+using EyeLids = std::array<Eigen::Vector3f, 6>;
+
+// Of the left eye; the right one wears its mirror picture. apex: the foremost place of the eyeball.
+Paint eye_paint(const Texel& texel, const Eigen::Vector3f& apex, const EyeLids& lids);
 Paint teeth_paint(const Texel& texel);
 Paint gums_paint(const Texel& texel);
 Paint tongue_paint(const Texel& texel);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "synth/training/bake_paint.hpp"
 
@@ -10,7 +9,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float kIris = 6.0f, kPupil = 2.2f;  // mm, radii
+constexpr float kIris = 5.7f, kPupil = 2.0f;  // mm, radii
 
 Vector3f iris(const Vector2f& from_middle, float share) {
     const float angle = std::atan2(from_middle.y(), from_middle.x()), c = std::cos(angle),
@@ -30,6 +29,21 @@ Vector3f white_of_eye(const Vector3f& place, float out) {
         mix(Vector3f::Ones(), Vector3f(0.94f, 0.70f, 0.66f), smooth_step(9.5f, 14, out)));
 }
 
+// The height at x of the cubic through four places, x between the first and the last of them.
+float height_through(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d, float x) {
+    const Vector3f* places[] = {&a, &b, &c, &d};
+    const float at = std::clamp(x, std::min(a.x(), d.x()), std::max(a.x(), d.x()));
+    float height = 0;
+    for (int i = 0; i < 4; ++i) {
+        float weight = places[i]->y();
+        for (int k = 0; k < 4; ++k) {
+            if (k != i) weight *= (at - places[k]->x()) / (places[i]->x() - places[k]->x());
+        }
+        height += weight;
+    }
+    return height;
+}
+
 struct Hair {
     float root, lean, reach, width;
 };
@@ -37,7 +51,7 @@ Hair hair(int index, int count) {
     const float spread = 0.5f * (lattice(index, 1, 0) - 0.5f);
     const float root = (index + 0.5f + spread) / count;
     return {root, 0.10f * (root - 0.42f) + 0.022f * (lattice(index, 2, 0) - 0.5f),
-            0.62f + 0.38f * lattice(index, 3, 0), 0.0042f + 0.0015f * lattice(index, 4, 0)};
+            0.62f + 0.38f * lattice(index, 3, 0), 0.0046f + 0.0016f * lattice(index, 4, 0)};
 }
 
 }  // namespace
@@ -50,24 +64,38 @@ Vector3f linear_from_srgb(float red, float green, float blue) {
     return {linear(red), linear(green), linear(blue)};
 }
 
-Paint eye_paint(const Texel& texel, const Vector3f& apex) {
-    const Vector2f q = (texel.place - apex).head<2>();
+Paint eye_paint(const Texel& texel, const Vector3f& apex, const EyeLids& lids) {
+    const Vector3f& p = texel.place;
+    const Vector2f q = (p - apex).head<2>();
     const float out = q.norm(), share = out / kIris;
-    Vector3f colour = iris(q, share) * (1 - 0.85f * smooth_step(0.78f, 1.0f, share));
+    Vector3f colour = iris(q, share) * (1 - 0.92f * smooth_step(0.76f, 0.98f, share));
     colour *= mix(0.015f, 1.0f, smooth_step(kPupil - 0.25f, kPupil + 0.35f, out));
-    colour = mix(colour, white_of_eye(texel.place, out), smooth_step(kIris - 0.45f, kIris + 0.65f, out));
-    return {colour, 0.12f};
+    const float along = (p.x() - lids[0].x()) / (lids[3].x() - lids[0].x());  // 0 inner to 1 outer corner
+    const float corners = std::max(smooth_step(0.34f, 0.04f, along), smooth_step(0.74f, 1.0f, along));
+    Vector3f white =
+        white_of_eye(p, out).cwiseProduct(mix(Vector3f::Ones(), Vector3f(0.66f, 0.50f, 0.48f), corners));
+    white = mix(white, linear_from_srgb(188, 112, 104), smooth_step(5.2f, 3.4f, (p - lids[0]).norm()));
+    colour = mix(colour, white, smooth_step(kIris - 0.45f, kIris + 0.65f, out));
+    const float below_upper = height_through(lids[0], lids[1], lids[2], lids[3], p.x()) - p.y(),
+                above_lower = p.y() - height_through(lids[0], lids[5], lids[4], lids[3], p.x());
+    Paint paint{colour, 0.12f};
+    paint.open = mix(0.34f, 1.0f, smooth_step(-0.6f, 4.2f, below_upper)) *
+                 mix(0.62f, 1.0f, smooth_step(-0.4f, 1.6f, above_lower));
+    return paint;
 }
 
 Paint teeth_paint(const Texel& texel) {
+    constexpr int kCrowns = 14;
     const Vector3f& p = texel.place;
-    const Vector3f crown = linear_from_srgb(232, 223, 203), neck = linear_from_srgb(214, 192, 156);
-    const float edge = smooth_step(0.82f, 1.0f, texel.v);
+    const Vector3f crown = linear_from_srgb(228, 218, 198), neck = linear_from_srgb(210, 186, 148);
+    const float strip = texel.u * kCrowns, aside = std::abs(strip - std::floor(strip) - 0.5f) / 0.36f;
+    const float edge = smooth_step(0.80f, 0.97f, texel.v) + 0.5f * smooth_step(0.6f, 1.0f, aside);
     Vector3f colour = mix(neck, crown, smooth_step(0.05f, 0.5f, texel.v)) * (0.96f + 0.06f * noise(p * 0.5f));
-    colour = mix(colour, linear_from_srgb(206, 206, 200), 0.45f * edge);
+    colour = mix(colour, linear_from_srgb(182, 184, 182), 0.6f * clamp01(edge));
     Paint paint{colour, 0.24f};
-    paint.open =
-        mix(0.55f, 1.0f, smooth_step(0.0f, 0.3f, texel.v)) * mix(1.0f, 0.45f, smooth_step(-14, -45, p.z()));
+    paint.open = mix(0.55f, 1.0f, smooth_step(0.0f, 0.3f, texel.v)) *
+                 mix(1.0f, 0.45f, smooth_step(-14, -45, p.z())) *
+                 mix(1.0f, 0.6f, smooth_step(0.86f, 1.0f, aside));
     return paint;
 }
 
@@ -92,17 +120,18 @@ Paint lining_paint(const Texel& texel) {
 }
 
 Paint lash_paint(const Texel& texel) {
-    constexpr int kHairs = 64;
-    constexpr float kEdge = 0.0016f;                         // of u: half a texel's softness
-    float cover = 0.4f * smooth_step(0.10f, 0.0f, texel.v);  // roots close together
+    constexpr int kHairs = 56;
+    constexpr float kEdge = 0.0016f;  // of u: half a texel's softness
+    const float ends = smooth_step(0, 0.12f, texel.u) * smooth_step(1, 0.92f, texel.u);
+    const float rooted = smooth_step(0, 0.3f, texel.u) * smooth_step(1, 0.8f, texel.u);
+    float cover = 0.3f * rooted * smooth_step(0.10f, 0.0f, texel.v);  // roots close together
     for (int i = 0; i < kHairs; ++i) {
         const auto [root, lean, reach, width] = hair(i, kHairs);
         if (texel.v > reach) continue;
-        const float half = width * std::sqrt(1 - texel.v / reach);
+        const float half = width * std::pow(1 - texel.v / reach, 0.75f);
         const float off = std::abs(texel.u - root - lean * texel.v * (0.6f + 0.4f * texel.v));
         cover = std::max(cover, smooth_step(half + kEdge, half - kEdge, off));
     }
-    const float ends = smooth_step(0, 0.05f, texel.u) * smooth_step(1, 0.95f, texel.u);
     return {linear_from_srgb(24, 17, 14), 0.6f, 0, cover * ends};
 }
 

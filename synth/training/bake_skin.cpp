@@ -80,7 +80,7 @@ float SkinPaint::hair_depth(const Vector3f& p) const {
     const float slope =
         (hairline_height(std::min(azimuth + 4, 180.0f)) - hairline_height(std::max(azimuth - 4, 0.0f))) /
         std::max(radius * 0.1396f, 4.0f);
-    const float ragged = 9 * (fractal(p * 0.09f) - 0.5f) + 5 * (noise(p * 0.35f) - 0.5f);
+    const float ragged = 8 * (fractal(p * 0.09f, 2) - 0.5f) + 3 * (noise(p * 0.35f) - 0.5f);
     float depth = (p.y() - line) / std::sqrt(1 + slope * slope) + ragged;
     const float ear = smooth_step(76, 80, std::abs(p.x())) * smooth_step(88, 76, p.y());
     return mix(depth, -20, ear);
@@ -102,8 +102,10 @@ SkinPaint::Brow SkinPaint::brow(const Vector3f& p) const {
         for (int k = 0; k < 4; ++k) {
             const Vector3f& inner = marks_[side ? 22 + k : 21 - k];
             const Vector3f& outer = marks_[side ? 23 + k : 20 - k];
-            const auto [distance, t] = to_segment(p, inner, outer);
+            const auto [distance, on] = to_segment(p, inner, outer);
             if (distance >= found.out) continue;
+            const float t =
+                k > 0 ? on : std::min(on, (p - inner).dot(outer - inner) / (outer - inner).squaredNorm());
             const Vector3f way = (outer - inner).normalized();
             const Vector3f up = (Vector3f::UnitY() - way * way.y()).normalized();
             found = {(k + t) / 4, (p - inner - t * (outer - inner)).dot(up), distance};
@@ -148,15 +150,17 @@ Vector3f SkinPaint::complexion(const Vector3f& p) const {
 float SkinPaint::brow_cover(const Vector3f& p) const {
     const auto [t, above, out] = brow(p);
     if (out > 9) return 0;
-    const float half = mix(3.9f, 1.5f, smooth_step(0.35f, 1, t)) * smooth_step(-0.08f, 0.14f, t);
+    const float inner = smooth_step(-0.10f, 0.24f, t + 0.05f * (noise(p * 0.7f) - 0.5f));
+    const float half = mix(3.7f, 1.5f, smooth_step(0.35f, 1, t)) * (0.75f + 0.25f * inner);
     const float middle = above + 0.6f + 1.1f * (noise(Vector3f(t * 36, above * 0.9f, 1)) - 0.5f);
-    const float dense = 1 - smooth_step(half * 0.25f, half * 1.15f, std::abs(middle));
+    const float dense = 1 - smooth_step(half * 0.2f, half * 1.2f, std::abs(middle));
     const float lean =
         mix(0.25f, 1.9f, smooth_step(0, 0.5f, t));  // strands rise at the nose and lie down outwards
     const float strand = noise(Vector3f((t * 44 - above * lean) * 1.25f, above * 0.35f, 5));
     const float hairs = smooth_step(0.15f, 0.65f, strand + 0.2f * noise(Vector3f(t * 150, above * 2.2f, 2)));
-    const float past_end = std::sqrt(std::max(0.0f, out * out - above * above));
-    return dense * (0.42f + 0.58f * hairs) * smooth_step(2.2f, 0.2f, past_end) *
+    const float past_end = t > 0.5f ? std::sqrt(std::max(0.0f, out * out - above * above)) : 0;
+    const float ground = mix(0.62f, 0.42f, inner);  // thin hair at the nose shows no single strands
+    return dense * inner * (ground + (1 - ground) * hairs) * smooth_step(2.2f, 0.2f, past_end) *
            (1 - 0.6f * smooth_step(0.85f, 1, t));
 }
 
@@ -175,14 +179,16 @@ float SkinPaint::nostril(const Vector3f& p, float open) const {
     float inside = 0;
     for (const int side : {-1, 1}) {
         const Vector3f middle = (marks_[33 + side] + marks_[33 + 2 * side]) / 2 + Vector3f(0, 4, -5);
-        inside = std::max(inside, smooth_step(13, 8, (p - middle).norm()));
+        inside = std::max(inside, smooth_step(11.5f, 8, (p - middle).norm()));
     }
-    return inside * smooth_step(0.50f, 0.26f, open);
+    return inside * smooth_step(0.56f, 0.36f, open);
 }
 
 Paint SkinPaint::at(const Texel& texel, float open) const {
     const Vector3f& p = texel.place;
-    if (collar(p) < 0) return cloth_paint(p);
+    constexpr float kHem = 1.1f;  // mm to either side of the collar's edge, about a texel there
+    const float cloth = smooth_step(kHem, -kHem, collar(p));
+    if (cloth == 1) return cloth_paint(p);
     const float into_lips = lip_depth(p),
                 lips = smooth_step(-1.2f, 1.1f, into_lips + 0.8f * (noise(p * 0.9f) - 0.5f));
     const Vector3f bare = complexion(p);
@@ -195,21 +201,27 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
     const float behind = hair_depth(p), tips = noise(p.cwiseProduct(Vector3f(1.5f, 1.0f, 1.5f)));
     const float stipple = smooth_step(0.2f, 0.7f, noise(p * 1.7f) * 0.6f + 0.4f * tips);
     const float hair =
-        smooth_step(-7, 15, behind) * mix(0.55f + 0.45f * stipple, 1, smooth_step(2, 26, behind));
+        smooth_step(-9, 17, behind) * mix(0.76f + 0.24f * stipple, 1, smooth_step(2, 24, behind));
     const Vector3f hair_colour = linear_from_srgb(44, 32, 25);
     colour = mix(colour, hair_colour * (0.55f + 0.8f * tips), 0.94f * hair);
     colour = mix(colour, hair_colour * 0.85f, 0.93f * clamp01(brow_cover(p)));
     const float dark = nostril(p, open);
-    colour *= 1 - 0.85f * dark;
+    colour = mix(colour, linear_from_srgb(26, 13, 10), 0.96f * dark);
     const float shine =
         clamp01(near(30, {0, 0, 0}, p, 14) + smooth_step(105, 125, p.y()) * smooth_step(-50, -20, p.z()));
-    Paint paint{colour, mix(0.55f, 0.46f, shine)};
+    const float matt = near(39, {1, -9, 4}, p, 13) + near(42, {-1, -9, 4}, p, 13);
+    Paint paint{colour, mix(mix(0.55f, 0.46f, shine), 0.68f, clamp01(matt))};
     paint.roughness = mix(paint.roughness, 0.36f, lips);
     paint.roughness = mix(paint.roughness, 0.72f, std::max(hair, 0.4f * beard));
     paint.open = (1 - 0.9f * dark) * (1 - 0.35f * hair);
     const float ear =
         smooth_step(76, 86, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(0, 20, p.y());
-    paint.thinness = clamp01(0.9f * ear + 0.3f * (near(31, {0, 0, 0}, p, 8) + near(35, {0, 0, 0}, p, 8)));
+    paint.thinness =
+        (1 - dark) * clamp01(0.9f * ear + 0.3f * (near(31, {0, 0, 0}, p, 8) + near(35, {0, 0, 0}, p, 8)));
+    if (cloth == 0) return paint;
+    const Paint below = cloth_paint(p);
+    paint.colour = mix(paint.colour, below.colour, cloth);
+    paint.roughness = mix(paint.roughness, below.roughness, cloth);
     return paint;
 }
 

@@ -247,12 +247,36 @@ Curve lash_roots(const std::vector<Vector2d>& lid, bool from_temple, const Chart
     return {roots.begin() + kOffNose, roots.end() - kOffTemple};
 }
 
+// Where an ear stands out farthest at each height, so that its outline from the front is one of the mesh's
+// own curves. side: +1 the talker's left.
+Curve ear_rim(double side, const Chart& chart, const Nodes& scan) {
+    constexpr double kLowest = 6, kHighest = 84, kStep = 2.2, kHead = 77;  // mm
+    Curve rim;
+    for (double y = kLowest; y < kHighest; y += kStep) {
+        Anchor farthest;
+        double reach = kHead;
+        for (const Triangle& t : chart.triangles()) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int a = t[k], b = t[(k + 1) % 3];
+                if ((scan(a, 1) < y) == (scan(b, 1) < y)) continue;
+                const double share = (y - scan(a, 1)) / (scan(b, 1) - scan(a, 1));
+                const double x = side * ((1 - share) * scan(a, 0) + share * scan(b, 0));
+                if (x <= reach) continue;
+                reach = x;
+                farthest = {{a, b, a}, {1 - share, share, 0}};
+            }
+        }
+        if (reach > kHead) rim.push_back(farthest);
+    }
+    return rim;
+}
+
 // Wanted edge length over the face: fine at the lips, the lids and the nostrils, coarse far from them.
 Spacing face_spacing(std::vector<Vector3d> features, std::vector<Vector3d> nose) {
-    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 10, kEar = 4.5, kNoseFiner = 3;
+    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 10, kEar = 3.1, kNoseFiner = 3;
     return [features = std::move(features), nose = std::move(nose)](const Vector3d& place) {
         const double near = std::min(distance_to(features, place), distance_to(nose, place) - kNoseFiner);
-        const bool ear = std::abs(place.x()) > 74 && place.y() > 5 && place.y() < 85;
+        const bool ear = std::abs(place.x()) > 76 && place.y() > 5 && place.y() < 85;
         return std::min(kFinest + kGrowth * near, ear ? kEar : kCoarsest);
     };
 }
@@ -304,6 +328,7 @@ DisplayAnchors remesh_head(const BlendHead& head) {
     loops.push_back(counted(mesh.border_first, kColumns));
     append(mesh.front, border);
     append(mesh.front, rings);
+    for (const double side : {1.0, -1.0}) append(mesh.front, ear_rim(side, face, scan));
 
     std::vector<Vector3d> nose;
     for (const int k : {31, 32, 33, 34, 35})
@@ -315,7 +340,7 @@ DisplayAnchors remesh_head(const BlendHead& head) {
     mesh.front_places = places_of(mesh.front, face);
     mesh.front_triangles = triangulate(mesh.front_places, nodes_at(mesh.front, scan), loops);
 
-    constexpr double kBackSpacing = 18;
+    constexpr double kBackSpacing = 15;
     const Loop& bottom_hole = back.holes().at(0);
     const Curve bottom = resample_loop(bottom_hole, scan, kBottomNodes);
     mesh.back = ring;

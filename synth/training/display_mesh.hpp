@@ -1,4 +1,4 @@
-// The talker's display mesh: about 5,000 nodes of our own topology on the blend-shape head's surface, sampled
+// The talker's display mesh: about 4,000 nodes of our own topology on the blend-shape head's surface, sampled
 // densely round the mouth and the eyes. [ATR98, "Face and lip mesh adaptation"]
 #pragma once
 

@@ -32,7 +32,7 @@ PartMesh eye(double side) {
                                std::cos(angle));
             part.nodes.row(r * kEyeAround + k) = (centre + EyeBall::radius_at(angle) * way).transpose();
             const double reach = angle / (2 * std::numbers::pi);
-            part.uvs.row(r * kEyeAround + k) << static_cast<float>(0.5 + reach * std::cos(round)),
+            part.uvs.row(r * kEyeAround + k) << static_cast<float>(0.5 + side * reach * std::cos(round)),
                 static_cast<float>(0.5 + reach * std::sin(round));
         }
     }

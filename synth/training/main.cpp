@@ -54,10 +54,11 @@ nlohmann::json description() {
              "licence); the notice stands whole in NOTICE."}};
 }
 
-Landmarks landmarks_of(const BlendHead& head) {
+Landmarks landmarks_of(const HeadToFace& source) {
+    const BlendHead& head = source.head();
+    const Nodes rest = source.resting(head.neutral().nodes);
     Landmarks places;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        places[i] = head.neutral().nodes.row(head.landmarks().at(i)).transpose();
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = rest.row(head.landmarks().at(i)).transpose();
     return places;
 }
 
@@ -77,7 +78,7 @@ void make_shapes(const BlendHead& head, const fs::path& output) {
     print_distances(source);
     Face face = make_face(source);
     tell("baking textures");
-    bake_surfaces(face, landmarks_of(head));
+    bake_surfaces(face, landmarks_of(source));
     const PoseTraining training = pose_training(source, face);
     follow_modes(face, source, training);
     write_whole(output / "face.glb", write_glb(face, kCopyright));

@@ -15,6 +15,12 @@ namespace {
 const Vector3d kHinge(0, 29.5, -88.3);
 constexpr double kModeTolerance = 1e-5;  // of the largest singular value: below it lies the scans' round-off
 
+constexpr double kRestingLids = 0.10;  // of a blink
+
+Nodes lowered_lids(const BlendHead& head) {
+    return head.pose({{"eyeBlink_L", kRestingLids}, {"eyeBlink_R", kRestingLids}}) - head.neutral().nodes;
+}
+
 JawMotion jaw_of(const Configuration& rest, const Configuration& now) {
     return jaw_motion(kHinge, point_of(rest, kLowerIncisor), point_of(now, kLowerIncisor));
 }
@@ -153,10 +159,13 @@ HeadToFace::HeadToFace(const BlendHead& head)
     : head_(head),
       anchors_(remesh_head(head)),
       rest_points_(head.points(head.neutral().nodes)),
-      lining_(MouthLining::rest(lip_contours(anchors_, head.neutral().nodes).inner)) {}
+      lining_(MouthLining::rest(lip_contours(anchors_, head.neutral().nodes).inner)),
+      lowered_(lowered_lids(head)) {}
+
+Nodes HeadToFace::resting(const Nodes& scan) const { return scan + lowered_; }
 
 Nodes HeadToFace::posed(const Nodes& scan) const {
-    const auto parts = parts_of(head_, anchors_, rest_points_, lining_, scan);
+    const auto parts = parts_of(head_, anchors_, rest_points_, lining_, resting(scan));
     Eigen::Index count = 0;
     for (const PartMesh& part : parts) count += part.nodes.rows();
     Nodes nodes(count, 3);
@@ -171,7 +180,7 @@ Nodes HeadToFace::posed(const Nodes& scan) const {
 Face HeadToFace::unposed() const {
     Face face;
     face.jaw_hinge = kHinge;
-    const Nodes scan = head_.pose(posture("closed_relaxed").weights);
+    const Nodes scan = resting(head_.pose(posture("closed_relaxed").weights));
     for (const PartMesh& part : parts_of(head_, anchors_, rest_points_, lining_, scan)) add_part(face, part);
     face.lips.first_node = part_named(face, "lips").first_node;
     weld_parts(face, anchors_);
@@ -196,7 +205,8 @@ Face make_face(const HeadToFace& source, const std::vector<Posture>& postures) {
     face.mode_variance = components.variance;
     const Nodes neutral = source.posed(head.neutral().nodes);
     for (const std::string& name : head.shape_names()) {
-        face.shapes.push_back({name, source.posed(head.pose({{name, 1.0}})) - neutral});
+        const double whole = name.starts_with("eyeBlink") ? 1 - kRestingLids : 1;
+        face.shapes.push_back({name, source.posed(head.pose({{name, whole}})) - neutral});
     }
     return face;
 }

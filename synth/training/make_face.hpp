@@ -18,7 +18,9 @@ class HeadToFace {
 
     const BlendHead& head() const { return head_; }
     const DisplayAnchors& anchors() const { return anchors_; }
-    Nodes posed(const Nodes& scan) const;  // [nodes of the face x 3], mm
+    // The scan with its lids as low as they rest: the scans' eyes are wide open.
+    Nodes resting(const Nodes& scan) const;
+    Nodes posed(const Nodes& scan) const;  // [nodes of the face x 3], mm, lids at rest
     Face unposed() const;                  // parts, uvs, welds and the rest nodes: no modes, no shapes
 
   private:
@@ -26,6 +28,7 @@ class HeadToFace {
     DisplayAnchors anchors_;
     Configuration rest_points_;
     Nodes lining_;
+    Nodes lowered_;  // the lids' way to rest, [nodes of the scan x 3], mm
 };
 
 Face make_face(const HeadToFace& source, const std::vector<Posture>& postures = talker_postures());

@@ -8,7 +8,7 @@ namespace viaface {
 namespace {
 
 using Eigen::Vector3d;
-constexpr int kSections = 4, kAround = 10, kPerSide = 7, kNodesPerTooth = kSections * kAround + 1;
+constexpr int kSections = 5, kAround = 9, kPerSide = 7, kNodesPerTooth = kSections * kAround + 1;
 
 // One crown: where its middle stands (mm), which way it faces (degrees from straight ahead), how wide it is
 // along the arch and deep across it, its edge's height, how thin its edge is (part of its depth) and how
@@ -16,32 +16,47 @@ constexpr int kSections = 4, kAround = 10, kPerSide = 7, kNodesPerTooth = kSecti
 struct Crown {
     double x, z, facing, width, depth, edge, thin, point;
 };
-constexpr std::array<Crown, kPerSide> kUpper = {{{4.1, -1.9, 6, 8.3, 6.6, 0.0, 0.28, 0.0},
-                                                 {11.4, -4.0, 24, 6.7, 6.0, 0.7, 0.28, 0.1},
-                                                 {17.0, -9.6, 50, 7.4, 7.0, 0.3, 0.35, 0.9},
-                                                 {20.3, -16.8, 70, 6.8, 8.6, 0.9, 0.75, 0.5},
-                                                 {22.4, -23.8, 76, 6.7, 8.8, 1.3, 0.75, 0.4},
-                                                 {24.2, -32.0, 80, 9.6, 10, 1.7, 0.85, 0.2},
-                                                 {25.8, -41.4, 82, 9.2, 10, 2.8, 0.85, 0.2}}};
-constexpr std::array<Crown, kPerSide> kLower = {{{2.8, -3.9, 4, 5.5, 5.8, 0.3, 0.28, 0.0},
-                                                 {8.2, -5.2, 20, 5.7, 5.8, 0.5, 0.28, 0.1},
-                                                 {13.6, -9.6, 45, 6.6, 6.6, 0.9, 0.35, 0.8},
-                                                 {17.4, -16.0, 64, 6.8, 7.4, 0.5, 0.7, 0.5},
-                                                 {19.8, -23.0, 74, 6.9, 7.8, 0.5, 0.75, 0.4},
-                                                 {22.0, -31.6, 79, 10.2, 9, 0.9, 0.85, 0.2},
-                                                 {23.8, -41.6, 82, 9.8, 9, 2.0, 0.85, 0.2}}};
+constexpr std::array<Crown, kPerSide> kUpper = {{{4.25, -1.9, 5, 8.5, 6.6, 0.0, 0.28, 0.0},
+                                                 {11.5, -3.7, 23, 6.7, 6.0, 0.7, 0.28, 0.1},
+                                                 {16.8, -8.9, 48, 8.0, 7.0, 0.3, 0.35, 0.9},
+                                                 {20.2, -15.8, 68, 7.2, 8.6, 0.9, 0.75, 0.5},
+                                                 {22.3, -22.8, 72, 7.2, 8.8, 1.3, 0.75, 0.4},
+                                                 {24.2, -31.2, 75, 9.8, 9.4, 1.7, 0.85, 0.2},
+                                                 {25.8, -40.8, 79, 9.4, 9.4, 2.8, 0.85, 0.2}}};
+constexpr std::array<Crown, kPerSide> kLower = {{{2.8, -3.9, 4, 5.6, 5.8, 0.3, 0.28, 0.0},
+                                                 {8.4, -5.0, 20, 6.0, 5.8, 0.5, 0.28, 0.1},
+                                                 {13.7, -9.0, 45, 7.2, 6.6, 0.9, 0.35, 0.8},
+                                                 {17.5, -15.2, 64, 7.2, 7.4, 0.5, 0.7, 0.5},
+                                                 {19.9, -22.2, 70, 7.4, 7.8, 0.5, 0.75, 0.4},
+                                                 {22.0, -30.9, 74, 10.4, 8.4, 0.9, 0.85, 0.2},
+                                                 {23.8, -41.0, 78, 10.0, 8.4, 2.0, 0.85, 0.2}}};
 constexpr double kCrownHeight = 11.5;  // mm, from the edge to a neck within the gum
 
-double signed_power(double v, double e) { return std::copysign(std::pow(std::abs(v), e), v); }
-
 // Sections from the neck (0) to the edge (kSections - 1), then the middle of the biting face.
-void add_crown(PartMesh& part, int first, const Crown& crown, double mirror, double side, double shade) {
+// Crowns touch at the third section; their edges' corners are round, the outer one more.
+void add_crown(PartMesh& part, int first, const Crown& crown, double mirror, double side, double strip) {
     const double facing = crown.facing * std::numbers::pi / 180;
     const Vector3d out(mirror * std::sin(facing), 0, std::cos(facing));
     const Vector3d along(mirror * std::cos(facing), 0, -std::sin(facing));
     const Vector3d middle(mirror * crown.x, crown.edge, crown.z);
-    constexpr std::array<double, kSections> kHeights = {0, 0.5, 0.92, 1};
-    constexpr std::array<double, kSections> kWidths = {0.76, 0.97, 0.98, 0.84};
+    constexpr std::array<double, kSections> kHeights = {0, 0.42, 0.76, 0.94, 1};
+    constexpr std::array<double, kSections> kWidths = {0.74, 0.95, 1.02, 1.0, 0.92};
+    constexpr double kStripHalf = 0.36,
+                     kStripFoot = 0.03;  // of the crown's strip of the texture: off its rims
+    const auto uv = [&](double sideways, double h) {
+        return Eigen::RowVector2f(static_cast<float>((strip + 0.5 + kStripHalf * sideways) / (2 * kPerSide)),
+                                  static_cast<float>(kStripFoot + (1 - 2 * kStripFoot) * h));
+    };
+    // Round a crown from the middle of its face: sideways and outwards, parts of half its width and depth.
+    constexpr std::array<std::array<double, 2>, kAround> kRound = {{{0, 1},
+                                                                    {0.5, 0.97},
+                                                                    {0.9, 0.78},
+                                                                    {1, 0.35},
+                                                                    {0.6, -0.9},
+                                                                    {-0.6, -0.9},
+                                                                    {-1, 0.35},
+                                                                    {-0.9, 0.78},
+                                                                    {-0.5, 0.97}}};
     for (int s = 0; s < kSections; ++s) {
         const double h = kHeights[static_cast<std::size_t>(s)];
         const double edge_part = std::pow(h, 1.4);
@@ -50,24 +65,24 @@ void add_crown(PartMesh& part, int first, const Crown& crown, double mirror, dou
         const double front =
             crown.depth * 0.5 * (1 - 0.10 * h * h);  // the face leans back a little at the edge
         for (int k = 0; k < kAround; ++k) {
-            const double angle = 2 * std::numbers::pi * k / kAround;
-            const double across = signed_power(std::cos(angle), 0.6),
-                         sideways = signed_power(std::sin(angle), 0.7);
+            const auto [sideways, across] = kRound[static_cast<std::size_t>(k)];
             const double width = crown.width * kWidths[static_cast<std::size_t>(s)];
-            const double lift = crown.point * 1.6 * sideways * sideways * h * h;
+            const double corner =
+                (sideways > 0 ? 0.9 : 0.4) * std::pow(std::abs(sideways), 5) * std::pow(h, 6);
+            const double lift = crown.point * 1.6 * sideways * sideways * h * h + corner;
             const double bow = 0.10 * crown.width * sideways * sideways;  // a face is round from side to side
             const Vector3d place = middle + out * (front - depth * (0.5 - 0.5 * across) - bow) +
                                    along * (0.5 * width * sideways) +
                                    Vector3d(0, side * (kCrownHeight * (1 - h) + lift), 0);
             const int node = first + s * kAround + k;
             part.nodes.row(node) = place.transpose();
-            part.uvs.row(node) << static_cast<float>(shade + 0.05 * k / kAround), static_cast<float>(h);
+            part.uvs.row(node) = uv(sideways, h);
         }
     }
     const int cap = first + kSections * kAround;
     const double inset = crown.depth * 0.5 * (0.9 - crown.thin * 0.8);
     part.nodes.row(cap) = (middle + out * inset + Vector3d(0, side * 0.05, 0)).transpose();
-    part.uvs.row(cap) << static_cast<float>(shade + 0.025), 1.0f;
+    part.uvs.row(cap) = uv(0, 1);
     const bool flipped = mirror * side > 0;
     const auto add = [&](int a, int b, int c) {
         part.triangles.push_back(flipped ? Triangle{a, c, b} : Triangle{a, b, c});
@@ -91,8 +106,7 @@ PartMesh teeth(const std::array<Crown, kPerSide>& arch, double side, std::string
                   {}};
     for (int i = 0; i < 2 * kPerSide; ++i) {
         const double mirror = i < kPerSide ? 1 : -1;
-        add_crown(part, i * kNodesPerTooth, arch[static_cast<std::size_t>(i % kPerSide)], mirror, side,
-                  i / 16.0);
+        add_crown(part, i * kNodesPerTooth, arch[static_cast<std::size_t>(i % kPerSide)], mirror, side, i);
     }
     return part;
 }
@@ -122,7 +136,7 @@ Crown on_arch(const std::array<Crown, kPerSide>& arch, double t) {
 }
 
 PartMesh gums(const std::array<Crown, kPerSide>& arch, double side, std::string name, Drive drive) {
-    constexpr int kSteps = 40, kAcross = 8;
+    constexpr int kSteps = 4 * (2 * kPerSide - 1) + 1, kAcross = 8;
     // Across the ridge, from the lip's side to the tongue's: outwards of the crown's faces, above the edge,
     // mm. The last two close the roof or leave the floor open, as parts of the way to the middle.
     struct Profile {
@@ -137,7 +151,7 @@ PartMesh gums(const std::array<Crown, kPerSide>& arch, double side, std::string 
         const Crown crown = on_arch(arch, t);
         const double facing = crown.facing * std::numbers::pi / 180;
         const Vector3d out(std::sin(facing), 0, std::cos(facing)), middle(crown.x, crown.edge, crown.z);
-        const double papilla = 0.9 * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * t * (2 * kPerSide - 1)));
+        const double papilla = 1.8 * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * t * (2 * kPerSide - 1)));
         for (int k = 0; k < kAcross; ++k) {
             Vector3d place;
             if (k < 6) {

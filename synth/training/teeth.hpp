@@ -1,5 +1,6 @@
 // Procedural teeth and gums: two arches of sixteen crowns, each a stack of rounded sections, set where the
-// scan's teeth stand. u runs round a crown, v from the neck (0) to the edge (1).
+// scan's teeth stand. A crown has a strip of the texture: u runs across it,
+// v from the neck to the edge; front and back share it.
 #pragma once
 
 #include "facemodel/lips.hpp"
