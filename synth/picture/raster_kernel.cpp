@@ -346,29 +346,37 @@ class StripeDrawing {
 
     // What the shaders need of each fragment, at its pixel's middle.
     VIAFACE_INLINE Lit light(const Fragment* fragments) const {
-        Wide places[8];
-        float lights[8], sides[8], x[8], y[8];
+        const Surface* surfaces[8];
         const Level* levels[8];
+        Wide weights[8], right, up, side;
         for (int lane = 0; lane < 8; ++lane) {
             const Fragment& f = fragments[lane];
             const Surface& s = scratch_.surfaces[f.surface];
-            x[lane] = float(f.x), y[lane] = float(f.y);
-            Four weight = load<Four>(s.weight) + load<Four>(s.weight_right) * (x[lane] - s.x) +
-                          load<Four>(s.weight_up) * (y[lane] - s.y);
-            weight = greater(weight, load<Four>(s.least));
-            weight *= 1.0f / (weight[0] + weight[1] + weight[2]);
-            const Node &a = scene_.nodes[s.node[0]], &b = scene_.nodes[s.node[1]],
-                       &c = scene_.nodes[s.node[2]];
-            places[lane] = load<Wide>(a.normal) * weight[0] + load<Wide>(b.normal) * weight[1] +
-                           load<Wide>(c.normal) * weight[2];
-            lights[lane] = a.light * weight[0] + b.light * weight[1] + c.light * weight[2];
-            sides[lane] = s.side;
+            right[lane] = float(f.x), up[lane] = float(f.y);
+            const Four weight = load<Four>(s.weight) + load<Four>(s.weight_right) * (float(f.x) - s.x) +
+                                load<Four>(s.weight_up) * (float(f.y) - s.y);
+            store(&weights[lane], greater(weight, load<Four>(s.least)));
+            side[lane] = s.side;
+            surfaces[lane] = &s;
             levels[lane] = s.level;
         }
+        transpose(weights);
+        const Wide whole = 1.0f / (weights[0] + weights[1] + weights[2]);
+        float shares[3][8];
+        for (int i = 0; i < 3; ++i) store(shares[i], weights[i] * whole);
+        Wide places[8], lights[3];
+        for (int lane = 0; lane < 8; ++lane) {
+            const auto& [n0, n1, n2] = surfaces[lane]->node;
+            const Node &a = scene_.nodes[n0], &b = scene_.nodes[n1], &c = scene_.nodes[n2];
+            places[lane] = load<Wide>(a.normal) * shares[0][lane] + load<Wide>(b.normal) * shares[1][lane] +
+                           load<Wide>(c.normal) * shares[2][lane];
+            lights[0][lane] = a.light, lights[1][lane] = b.light, lights[2][lane] = c.light;
+        }
+        const Wide lit = lights[0] * load<Wide>(shares[0]) + lights[1] * load<Wide>(shares[1]) +
+                         lights[2] * load<Wide>(shares[2]);
         transpose(places);
         Wide texels[8];
         fetch(levels, places[6], places[7], texels);
-        const Wide right = load<Wide>(x), up = load<Wide>(y);
         const auto& eye = scene_.to_camera;
         const Three to_camera = unit({eye[0][0] + right * eye[1][0] + up * eye[2][0],
                                       eye[0][1] + right * eye[1][1] + up * eye[2][1],
@@ -376,8 +384,8 @@ class StripeDrawing {
         return {{places[0], places[1], places[2]},
                 {places[3], places[4], places[5]},
                 to_camera,
-                load<Wide>(sides),
-                load<Wide>(lights),
+                side,
+                lit,
                 {texels[0], texels[1], texels[2]},
                 texels[3],
                 texels[4],

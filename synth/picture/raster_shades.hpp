@@ -32,9 +32,13 @@ VIAFACE_INLINE Three sky(Wide up) {
             share * (0.37f - 0.075f) + 0.075f};
 }
 
-VIAFACE_INLINE Wide lobe(Wide nh, Wide a) {
+// A lobe's height as a fraction, so that several cost one division.
+struct Lobe {
+    Wide over, under;
+};
+VIAFACE_INLINE Lobe lobe(Wide nh, Wide a) {
     const Wide a2 = a * a, d = nh * nh * (a2 - 1.0f) + 1.0f;
-    return a2 / (3.14159f * d * d);
+    return {a2, 3.14159f * d * d};
 }
 
 VIAFACE_INLINE Wide fresnel(Wide vh) {
@@ -81,8 +85,9 @@ VIAFACE_INLINE Three shade_skin(const Lit& f) {
     const Three h = unit(lights.key + f.to_camera);
     const Wide nh = positive(dot(n, h)), vh = dot(f.to_camera, h), nl = positive(n_key);
     const Wide a = f.roughness * f.roughness;
-    const Wide oil =
-        (0.75f * lobe(nh, a) + 0.25f * lobe(nh, a * 0.4f)) * fresnel(vh) * nl / (4.0f * vh * vh + 0.1f);
+    const Lobe broad = lobe(nh, a), narrow = lobe(nh, a * 0.4f);
+    const Wide lobes = 0.75f * broad.over * narrow.under + 0.25f * narrow.over * broad.under;
+    const Wide oil = lobes * fresnel(vh) * nl / (broad.under * narrow.under * (4.0f * vh * vh + 0.1f));
     const Wide grazing = 1.0f - positive(dot(n, f.to_camera)), g2 = grazing * grazing;
     const Three gloss = (lights.key_light * oil + sky(n.y) * (0.02f + 0.22f * g2 * g2 * grazing)) * occlusion;
     return albedo * light * wide(0.40f) + gloss;
@@ -97,8 +102,8 @@ VIAFACE_INLINE Three shade_inside(const Lit& f) {
                         lights.fill_light * positive(dot(n, lights.fill) + 0.3f) + sky(n.y) * wide(2.4f);
     const Three h = unit(lights.key + f.to_camera);
     const Wide vh = dot(f.to_camera, h), nl = positive(dot(n, lights.key));
-    const Wide wet =
-        lobe(positive(dot(n, h)), f.roughness * f.roughness) * fresnel(vh) * nl / (4.0f * vh * vh + 0.1f);
+    const Lobe film = lobe(positive(dot(n, h)), f.roughness * f.roughness);
+    const Wide wet = film.over * fresnel(vh) * nl / (film.under * (4.0f * vh * vh + 0.1f));
     const Three deep = three(0.25f, 0.02f, 0.02f) * (open * (1.0f - open)) + open;
     return albedo * light * deep * wide(0.42f) + lights.key_light * (wet * open * open * 0.9f);
 }
@@ -112,7 +117,8 @@ VIAFACE_INLINE Three shade_eye(const Lit& f) {
                         sky(ball.y) * wide(2.6f);
     const Three h = unit(lights.key + f.to_camera);
     const Wide reflected_y = 2.0f * dot(n, f.to_camera) * n.y - f.to_camera.y;
-    const Wide spot = lesser(lobe(positive(dot(n, h)), wide(0.012f)) * 0.03f, wide(2.0f));
+    const Lobe glint = lobe(positive(dot(n, h)), wide(0.012f));
+    const Wide spot = lesser(glint.over * 0.03f / glint.under, wide(2.0f));
     return (albedo * light * wide(0.32f) + lights.key_light * spot + sky(reflected_y) * wide(0.10f)) *
            f.cover;
 }
