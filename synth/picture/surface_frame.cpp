@@ -71,7 +71,8 @@ Tangents rest_tangents(const Face& face, const NodesF& normals) {
         if (!(tangent.norm() > 0)) tangent = normal.unitOrthogonal();
         tangent.normalize();
         const float sign = normal.cross(tangent).dot(along_v.row(node)) < 0 ? -1.0f : 1.0f;
-        tangents.row(node) << tangent, sign;
+        tangents.row(node).head<3>() = tangent;
+        tangents(node, 3) = sign;
     }
     return tangents;
 }

@@ -23,7 +23,8 @@ nlohmann::json read_talker_json(const fs::path& folder) {
         description.at("provenance").at("motion").get_ref<const std::string&>();
         return description;
     } catch (const nlohmann::json::exception& error) {
-        throw InputError("talker", file.string(), std::string("a talker's description in JSON: ") + error.what());
+        throw InputError("talker", file.string(),
+                         std::string("a talker's description in JSON: ") + error.what());
     }
 }
 

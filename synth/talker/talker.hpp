@@ -22,7 +22,8 @@ struct Talker {
     std::string motion_provenance() const { return description.at("provenance").at("motion"); }
 };
 
-// talker.json, face.glb, estimators.bin and codex.via. InputError when the folder is none, or a file of it is damaged.
+// talker.json, face.glb, estimators.bin and codex.via. InputError when the folder is none, or a file of it is
+// damaged.
 nlohmann::json read_talker_json(const std::filesystem::path& folder);
 Talker load_talker(const std::filesystem::path& folder);
 

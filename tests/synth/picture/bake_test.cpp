@@ -59,7 +59,8 @@ std::vector<Triangle> all_triangles(const Face& face) {
 TEST(Bake, NothingInTheWayIsOpen) {
     const Face face = mapped_square();
     const TexelGrid grid = lay_out(face, Material::kSkin, 16);
-    for (const float open : openness(face, all_triangles(face), grid)) EXPECT_GT(open, 0.97f);  // grazing ways
+    for (const float open : openness(face, all_triangles(face), grid))
+        EXPECT_GT(open, 0.97f);  // grazing ways
 }
 
 TEST(Bake, ACoverTakesTheLight) {
