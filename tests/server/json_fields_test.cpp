@@ -23,7 +23,7 @@ std::string refused(const std::function<void()>& reading) {
 }
 
 TEST(JsonFields, ReadsEachTypeAndWhatIsAbsent) {
-    const json body = {{"text", "a"}, {"rate", 1.5}, {"fps", 30}, {"seed", 7}, {"view", {{"yaw", 2}}}};
+    const json body = {{"text", "a"}, {"rate", 1.5}, {"fps", 30}, {"seed", 7u}, {"view", {{"yaw", 2}}}};
     JsonFields fields(body, "");
     EXPECT_EQ(fields.text("text"), "a");
     EXPECT_EQ(fields.number("rate"), 1.5);
