@@ -79,7 +79,7 @@ Paint eye_paint(const Texel& texel, const Vector3f& apex, const EyeLids& lids) {
     const float below_upper = height_through(lids[0], lids[1], lids[2], lids[3], p.x()) - p.y(),
                 above_lower = p.y() - height_through(lids[0], lids[5], lids[4], lids[3], p.x());
     Paint paint{colour, 0.12f};
-    paint.open = mix(0.34f, 1.0f, smooth_step(-0.6f, 4.2f, below_upper)) *
+    paint.open = mix(0.28f, 1.0f, smooth_step(-0.6f, 4.8f, below_upper)) *
                  mix(0.62f, 1.0f, smooth_step(-0.4f, 1.6f, above_lower));
     return paint;
 }
@@ -95,7 +95,7 @@ Paint teeth_paint(const Texel& texel) {
     Paint paint{colour, 0.24f};
     paint.open = mix(0.55f, 1.0f, smooth_step(0.0f, 0.3f, texel.v)) *
                  mix(1.0f, 0.45f, smooth_step(-14, -45, p.z())) *
-                 mix(1.0f, 0.6f, smooth_step(0.86f, 1.0f, aside));
+                 mix(1.0f, 0.72f, smooth_step(0.86f, 1.0f, aside));
     return paint;
 }
 

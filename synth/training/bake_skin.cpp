@@ -181,7 +181,8 @@ float SkinPaint::nostril(const Vector3f& p, float open) const {
         const Vector3f middle = (marks_[33 + side] + marks_[33 + 2 * side]) / 2 + Vector3f(0, 4, -5);
         inside = std::max(inside, smooth_step(11.5f, 8, (p - middle).norm()));
     }
-    return inside * smooth_step(0.56f, 0.36f, open);
+    const float off_columella = smooth_step(2.0f, 4.0f, std::abs(p.x() - marks_[33].x()));
+    return inside * off_columella * smooth_step(0.56f, 0.36f, open);
 }
 
 Paint SkinPaint::at(const Texel& texel, float open) const {
