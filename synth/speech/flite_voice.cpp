@@ -1,7 +1,6 @@
 #include "synth/speech/flite_voice.hpp"
 
 #include <flite/flite.h>
-#include <locale.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +10,10 @@
 
 #include "base/bytes.hpp"
 #include "base/error.hpp"
+#include "synth/speech/c_locale.hpp"
+#include "synth/speech/phone_timing.hpp"
 #include "synth/speech/repeatable_noise.hpp"
+#include "synth/speech/spoken_phones.hpp"
 
 extern "C" {
 #include <flite/cst_cg.h>
@@ -59,24 +61,14 @@ constexpr std::array<KnownVoice, 4> kVoices = {{{"rms", register_cmu_us_rms},
                                                 {"awb", register_cmu_us_awb},
                                                 {"kal16", register_cmu_us_kal16}}};
 
-// One thread's turn in Flite: numbers are read and printed as in C, whatever the program's locale is.
+// One thread's turn in Flite.
 class Turn {
-  public:
-    Turn() : lock_(one_at_a_time()), plain_(newlocale(LC_ALL_MASK, "C", nullptr)), own_(uselocale(plain_)) {}
-    ~Turn() {
-        uselocale(own_);
-        freelocale(plain_);
-    }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-
-  private:
     static std::mutex& one_at_a_time() {
         static std::mutex mutex;
         return mutex;
     }
-    std::lock_guard<std::mutex> lock_;
-    locale_t plain_, own_;
+    std::lock_guard<std::mutex> lock_{one_at_a_time()};
+    CLocale plain_numbers_;
 };
 
 struct Delete {
@@ -132,29 +124,26 @@ std::string text_feature(const cst_item* item, const char* name) {
 
 // ---- what Flite said, read off ----
 
-void append_phone(Utterance& said, const cst_item* segment, std::int64_t end) {
-    auto& phones = said.phones.phones;
-    const std::int64_t begin = phones.empty() ? 0 : phones.back().end;
-    const PhoneId phone = parse_phone(text_feature(segment, "name")).phone;
-    const cst_item* syllable = phone == kPause ? nullptr : item_parent(item_as(segment, "SylStructure"));
-    if (!syllable && !phones.empty() && phones.back().phone == kPause) {
-        phones.back().end = end;
-        return;
-    }
-    const std::string stress = syllable ? text_feature(syllable, "stress") : "";
-    const int level = phone_info(phone).vowel && (stress == "1" || stress == "2") ? stress[0] - '0' : 0;
-    phones.push_back({phone, level, begin, end});
-    said.word_of_phone.push_back(syllable ? static_cast<int>(said.words.size()) - 1 : -1);
-    if (syllable) said.words.back().end = end;
+const cst_item* syllable_of(const cst_item* segment) {
+    const cst_item* place = item_as(segment, "SylStructure");
+    return place ? item_parent(place) : nullptr;
 }
 
-void append_word_when_new(Utterance& said, const cst_item* segment, const cst_item*& word) {
-    const cst_item* place = item_as(segment, "SylStructure");
-    const cst_item* owner = place && item_parent(place) ? item_parent(item_parent(place)) : nullptr;
-    if (!owner || owner == word) return;
-    word = owner;
-    const std::int64_t begin = said.phones.phones.empty() ? 0 : said.phones.phones.back().end;
-    said.words.push_back({text_feature(owner, "name"), begin, begin});
+std::vector<SpokenPhone> spoken_phones(const cst_utterance* utterance) {
+    std::vector<SpokenPhone> spoken;
+    const cst_item* word = nullptr;
+    for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment)) {
+        SpokenPhone phone{text_feature(segment, "name"), end_of(segment)};
+        if (const cst_item* syllable = syllable_of(segment)) {
+            phone.in_word = true;
+            phone.stress = text_feature(syllable, "stress");
+            const cst_item* owner = item_parent(syllable);
+            if (owner && owner != word) phone.word = text_feature(owner, "name");
+            if (owner) word = owner;
+        }
+        spoken.push_back(std::move(phone));
+    }
+    return spoken;
 }
 
 Waveform sound_of(cst_utterance* utterance) {
@@ -163,46 +152,11 @@ Waveform sound_of(cst_utterance* utterance) {
     return {wave->sample_rate, {wave->samples, wave->samples + wave->num_samples}};
 }
 
-// Waves end some ms before the last phone does, or in the middle of the last pause: the phones decide.
 Utterance read_off(cst_utterance* utterance) {
-    Utterance said;
-    said.sound = sound_of(utterance);
-    said.phones.sample_rate = said.sound.sample_rate;
-    const cst_item* word = nullptr;
-    for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment)) {
-        append_word_when_new(said, segment, word);
-        append_phone(said, segment, std::llround(end_of(segment) * said.sound.sample_rate));
-    }
-    if (said.phones.phones.empty()) throw std::runtime_error("Flite spoke no phones");
-    said.sound.samples.resize(static_cast<std::size_t>(said.phones.phones.back().end), 0);
-    return said;
-}
-
-Utterance with_edges(Utterance said) {
-    const double rate = said.sound.sample_rate;
-    said = with_pause_length(std::move(said), 0, std::llround(kLeadIn * rate));
-    return with_pause_length(std::move(said), said.phones.phones.size() - 1, std::llround(kLeadOut * rate));
+    return utterance_of(spoken_phones(utterance), sound_of(utterance));
 }
 
 // ---- phones with durations ----
-
-// Consonants go with the vowel after them; those after the last vowel of a word close it.
-bool begins_syllable(std::span<const RequestedPhone> phones, std::size_t i) {
-    if (i == 0 || phones[i - 1].phone == kPause) return true;
-    const auto pause =
-        std::find_if(phones.begin() + i, phones.end(), [](const auto& p) { return p.phone == kPause; });
-    const bool vowel_ahead =
-        std::any_of(phones.begin() + i, pause, [](const auto& p) { return phone_info(p.phone).vowel; });
-    return vowel_ahead && phone_info(phones[i - 1].phone).vowel;
-}
-
-std::string spelt(std::span<const RequestedPhone> phones, std::size_t first) {
-    std::string word;
-    for (std::size_t i = first; i < phones.size() && phones[i].phone != kPause; ++i) {
-        word += (word.empty() ? "" : "-") + std::string(phone_info(phones[i].phone).name);
-    }
-    return word;
-}
 
 cst_item* append_word(cst_utterance* utterance, const std::string& text) {
     cst_item* token = relation_append(utt_relation(utterance, "Token"), nullptr);
@@ -240,7 +194,7 @@ void lay_out(cst_utterance* utterance, std::span<const RequestedPhone> phones) {
         item_set_string(segment, "name", std::string(phone_info(phones[i].phone).name).c_str());
         item_set_int(segment, kIndex, static_cast<int>(i));
         if (phones[i].phone == kPause) continue;
-        if (i == 0 || phones[i - 1].phone == kPause) word = append_word(utterance, spelt(phones, i));
+        if (begins_word(phones, i)) word = append_word(utterance, spelt_word(phones, i));
         if (begins_syllable(phones, i)) syllable = append_syllable(utterance, word);
         if (phones[i].stress > 0) item_set_string(syllable, "stress", phones[i].stress == 1 ? "1" : "2");
         item_add_daughter(syllable, segment);
@@ -277,55 +231,39 @@ FliteUtterance speak_stretched(cst_voice* voice, std::span<const RequestedPhone>
     return utterance;
 }
 
-double worst_error(std::span<const double> durations, std::span<const RequestedPhone> phones) {
-    double worst = 0;
-    for (std::size_t i = 0; i < phones.size(); ++i) {
-        if (phones[i].phone != kPause && phones[i].duration) {
-            worst = std::max(worst, std::abs(durations[i] - *phones[i].duration));
-        }
+std::vector<double> ends_of(const cst_utterance* utterance) {
+    std::vector<double> ends;  // s
+    for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment)) {
+        ends.push_back(end_of(segment));
     }
-    return worst;
+    return ends;
 }
 
 std::vector<double> durations_of(const cst_utterance* utterance) {
     std::vector<double> durations;  // ms
     double begin = 0;
-    for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment)) {
-        durations.push_back(1000 * (end_of(segment) - begin));
-        begin = end_of(segment);
+    for (const double end : ends_of(utterance)) {
+        durations.push_back(1000 * (end - begin));
+        begin = end;
     }
     return durations;
 }
 
-// No state gets shorter than a frame, so that a stretch does less than it says: it is corrected until it
-// fits.
+// No state gets shorter than a frame, so that a stretch does less than it says.
 FliteUtterance speak_by_stretching(cst_voice* voice, std::span<const RequestedPhone> phones,
                                    const Prosody& prosody) {
-    constexpr int kMostRounds = 60;
-    constexpr double kCloseEnough = 0.5;  // ms
-    std::vector<double> factors(phones.size(), 1);
-    for (int round = 0; round < kMostRounds; ++round) {
-        const auto durations = durations_of(speak_stretched(voice, phones, prosody, factors, true).get());
-        if (worst_error(durations, phones) <= kCloseEnough) {
-            return speak_stretched(voice, phones, prosody, factors, false);
-        }
-        for (std::size_t i = 0; i < phones.size(); ++i) {
-            if (phones[i].duration) factors[i] *= *phones[i].duration / durations[i];
-        }
-    }
-    throw std::runtime_error("Flite did not meet the durations of the phones");
+    const auto factors = stretches_for(phones, [&](std::span<const double> factors) {
+        return durations_of(speak_stretched(voice, phones, prosody, factors, true).get());
+    });
+    return speak_stretched(voice, phones, prosody, factors, false);
 }
 
 void set_durations(cst_utterance* utterance, std::span<const RequestedPhone> phones) {
-    double own_end = 0, end = 0;
-    std::size_t i = 0;
+    const auto ends = ends_asked_for(ends_of(utterance), phones);
+    auto end = ends.begin();
     for (cst_item* segment = relation_head(utt_relation(utterance, "Segment")); segment;
          segment = item_next(segment)) {
-        const double own = end_of(segment) - own_end;
-        own_end += own;
-        end += phones[i].duration && phones[i].phone != kPause ? *phones[i].duration / 1000 : own;
-        item_set_float(segment, "end", static_cast<float>(end));
-        ++i;
+        item_set_float(segment, "end", static_cast<float>(*end++));
     }
 }
 
@@ -341,25 +279,7 @@ FliteUtterance speak_by_units(cst_voice* voice, std::span<const RequestedPhone> 
     return utterance;
 }
 
-Utterance with_pauses_asked_for(Utterance said, std::span<const RequestedPhone> phones) {
-    for (std::size_t i = 0; i < phones.size(); ++i) {
-        if (phones[i].phone != kPause || !phones[i].duration) continue;
-        said = with_pause_length(std::move(said), i,
-                                 std::llround(*phones[i].duration * said.sound.sample_rate / 1000));
-    }
-    return said;
-}
-
-void check_factor(const char* field, double value) {
-    if (!(value >= kLeast && value <= kMost)) throw InputError(field, std::to_string(value), "0.5 to 2");
-}
-
 }  // namespace
-
-void check_prosody(const Prosody& prosody) {
-    check_factor("rate", prosody.rate);
-    check_factor("pitch", prosody.pitch);
-}
 
 std::vector<std::string> FliteVoice::names() {
     std::vector<std::string> names;
@@ -393,11 +313,9 @@ Utterance FliteVoice::speak_phones(std::span<const RequestedPhone> phones, const
     check_prosody(prosody);
     const Turn turn;
     seed_noise(0);
-    const bool statistical = feat_present(voice_->features, "cg_db");
-    const FliteUtterance utterance =
-        statistical ? speak_by_stretching(voice_, phones, prosody) : speak_by_units(voice_, phones, prosody);
-    Utterance said = with_edges(read_off(utterance.get()));
-    said = with_pauses_asked_for(std::move(said), phones);
+    const FliteUtterance utterance = is_statistical(voice_) ? speak_by_stretching(voice_, phones, prosody)
+                                                            : speak_by_units(voice_, phones, prosody);
+    const Utterance said = with_pauses_asked_for(with_edges(read_off(utterance.get())), phones);
     check_utterance(said);
     return said;
 }

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "synth/speech/prosody.hpp"
 #include "synth/speech/requested_phones.hpp"
 #include "synth/speech/utterance.hpp"
 
@@ -24,16 +25,6 @@ struct cst_voice_struct;
 namespace viaface {
 
 inline constexpr std::string_view kDefaultVoice = "rms";
-inline constexpr double kLeast = 0.5, kMost = 2;          // of rate and of pitch
-inline constexpr double kLeadIn = 0.15, kLeadOut = 0.25;  // s, the pauses around a sentence
-
-struct Prosody {
-    double rate = 1;   // 0.5 to 2: of the voice's own speaking rate
-    double pitch = 1;  // 0.5 to 2: of the voice's own fundamental frequency
-};
-
-// InputError("rate" or "pitch", ...) when out of range or not a number.
-void check_prosody(const Prosody& prosody);
 
 class FliteVoice {
   public:

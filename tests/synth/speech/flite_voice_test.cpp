@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "synth/speech/spoken_phones.hpp"
 #include "synth/speech/text.hpp"
 
 namespace viaface {
