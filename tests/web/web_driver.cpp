@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,27 +24,27 @@ constexpr const char* kDriver = "/usr/bin/chromedriver";
 constexpr const char* kBrowser = "/usr/bin/chromium";
 
 // Starts the driver on a port of its own choice, which it tells on stdout.
-int start_driver(int& port) {
+int start_driver(int& port, WebDriver::Pipe& told) {
     int out[2];
     if (pipe(out) != 0) throw std::runtime_error("pipe failed");
     const int process = fork();
     if (process == 0) {
         setpgid(0, 0);
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
         dup2(out[1], STDOUT_FILENO);
-        execl(kDriver, kDriver, "--port=0", "--log-level=OFF", nullptr);
+        execl(kDriver, kDriver, "--port=0", nullptr);
         _exit(127);
     }
     close(out[1]);
-    FILE* told = fdopen(out[0], "r");
+    told.reset(fdopen(out[0], "r"));
     char line[512];
     std::cmatch match;
-    while (std::fgets(line, sizeof line, told) != nullptr) {
-        if (std::regex_search(line, match, std::regex(R"(on port (\d+))"))) {
+    while (std::fgets(line, sizeof line, told.get()) != nullptr) {
+        if (std::regex_search(line, match, std::regex(R"(successfully on port (\d+))"))) {
             port = std::stoi(match[1]);
             break;
         }
     }
-    std::fclose(told);
     return process;
 }
 
@@ -86,7 +87,7 @@ bool WebDriver::installed() { return std::filesystem::exists(kDriver) && std::fi
 WebDriver::WebDriver() {
     char folder[] = "/tmp/viaface_browser_XXXXXX";
     profile_ = mkdtemp(folder);
-    process_ = start_driver(port_);
+    process_ = start_driver(port_, told_);
     session_ = call("POST", "/session", wanted(profile_)).at("sessionId");
 }
 

@@ -1,6 +1,8 @@
 // A headless Chromium driven through its ChromeDriver, as the W3C WebDriver protocol has it.
 #pragma once
 
+#include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,6 +10,11 @@ namespace viaface {
 
 class WebDriver {
   public:
+    struct Close {
+        void operator()(FILE* file) const { std::fclose(file); }
+    };
+    using Pipe = std::unique_ptr<FILE, Close>;
+
     static bool installed();  // chromium and chromedriver are on this machine
 
     WebDriver();   // starts both; std::runtime_error when that fails
@@ -26,6 +33,7 @@ class WebDriver {
                         const nlohmann::json& body = nlohmann::json::object());
 
     int process_ = -1, port_ = 0;
+    Pipe told_;  // stdout of the driver, which ends when nobody holds it
     std::string session_, profile_;
 };
 
