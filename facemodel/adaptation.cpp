@@ -4,8 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "facemodel/delaunay.hpp"
 #include "facemodel/field_morph.hpp"
+#include "facemodel/triangulation.hpp"
 
 namespace viaface {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "facemodel/delaunay.hpp"
+#include "facemodel/triangulation.hpp"
 
 namespace viaface {
 namespace {

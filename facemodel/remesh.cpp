@@ -53,6 +53,90 @@ void place_on_circle(const Loop& loop, const Nodes& scan, std::vector<Vector2d>&
     }
 }
 
+// A piece of a scan whose holes are closed by a hub each.
+struct Closed {
+    std::vector<Vector3d> places;
+    std::vector<Triangle> triangles;
+};
+
+Closed closed_over(const std::vector<Loop>& holes, const Nodes& scan, std::vector<Triangle> triangles) {
+    Closed closed{{}, std::move(triangles)};
+    for (Eigen::Index i = 0; i < scan.rows(); ++i) closed.places.push_back(scan.row(i).transpose());
+    for (const Loop& hole : holes) {
+        Vector3d hub = Vector3d::Zero();
+        for (const int node : hole)
+            hub += closed.places[static_cast<std::size_t>(node)] / static_cast<double>(hole.size());
+        const int index = static_cast<int>(closed.places.size());
+        for (std::size_t k = 0; k < hole.size(); ++k) {
+            closed.triangles.push_back({hole[(k + 1) % hole.size()], hole[k], index});
+        }
+        closed.places.push_back(hub);
+    }
+    return closed;
+}
+
+// Nodes that are not fixed are the mean-value weighted means of their neighbours. [Floater03]
+class MeanValues {
+  public:
+    MeanValues(const Closed& surface, const Loop& fixed, const std::vector<Vector2d>& uv)
+        : uv_(uv), fixed_(surface.places.size(), 0) {
+        for (const int node : fixed) fixed_[static_cast<std::size_t>(node)] = 1;
+        number_rows(surface.triangles);
+        right_ = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(rows_.size()), 2);
+        for (const Triangle& t : surface.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) couple(surface, t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+        }
+    }
+
+    void solve_into(std::vector<Vector2d>& uv) const {
+        Eigen::SparseMatrix<double> system(right_.rows(), right_.rows());
+        system.setFromTriplets(entries_.begin(), entries_.end());
+        Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(system);
+        if (solver.info() != Eigen::Success) throw std::runtime_error("the chart's system has no solution");
+        const Eigen::MatrixX2d solved = solver.solve(right_);
+        for (const auto& [node, row] : rows_)
+            uv[static_cast<std::size_t>(node)] = solved.row(row).transpose();
+    }
+
+  private:
+    bool is_fixed(int node) const { return fixed_[static_cast<std::size_t>(node)] != 0; }
+
+    void number_rows(const std::vector<Triangle>& triangles) {
+        for (const Triangle& t : triangles) {
+            for (const int node : t) {
+                if (!is_fixed(node)) rows_.emplace(node, 0);
+            }
+        }
+        int count = 0;
+        for (auto& [node, row] : rows_) row = count++;
+    }
+
+    void couple(const Closed& surface, int node, int one, int other) {
+        if (is_fixed(node)) return;
+        const auto place = [&](int i) -> const Vector3d& {
+            return surface.places[static_cast<std::size_t>(i)];
+        };
+        const double tangent = half_tangent(place(node), place(one), place(other));
+        add(rows_.at(node), one, tangent / (place(one) - place(node)).norm());
+        add(rows_.at(node), other, tangent / (place(other) - place(node)).norm());
+    }
+
+    void add(int row, int neighbour, double weight) {
+        entries_.emplace_back(row, row, weight);
+        if (is_fixed(neighbour)) {
+            right_.row(row) += weight * uv_[static_cast<std::size_t>(neighbour)].transpose();
+        } else {
+            entries_.emplace_back(row, rows_.at(neighbour), -weight);
+        }
+    }
+
+    const std::vector<Vector2d>& uv_;
+    std::vector<char> fixed_;  // by node
+    std::map<int, int> rows_;  // by node that is not fixed
+    std::vector<Eigen::Triplet<double>> entries_;
+    Eigen::MatrixX2d right_;
+};
+
 }  // namespace
 
 Vector3d Anchor::at(const Nodes& scan) const {
@@ -101,61 +185,10 @@ Chart::Chart(const Nodes& scan, std::vector<Triangle> triangles) : triangles_(st
 }
 
 void Chart::flatten(const Nodes& scan) {
-    std::vector<Vector3d> places;
-    for (Eigen::Index i = 0; i < scan.rows(); ++i) places.push_back(scan.row(i).transpose());
-    std::vector<Triangle> closed = triangles_;
-    for (const Loop& hole : holes_) {
-        Vector3d hub = Vector3d::Zero();
-        for (const int node : hole)
-            hub += places[static_cast<std::size_t>(node)] / static_cast<double>(hole.size());
-        const int index = static_cast<int>(places.size());
-        for (std::size_t k = 0; k < hole.size(); ++k) {
-            closed.push_back({hole[(k + 1) % hole.size()], hole[k], index});
-        }
-        places.push_back(hub);
-    }
-    uv_.assign(places.size(), Vector2d::Zero());
+    const Closed closed = closed_over(holes_, scan, triangles_);
+    uv_.assign(closed.places.size(), Vector2d::Zero());
     place_on_circle(outer_, scan, uv_);
-
-    std::vector<char> fixed(places.size(), 0);
-    for (const int node : outer_) fixed[static_cast<std::size_t>(node)] = 1;
-    std::map<int, int> unknown;
-    for (const Triangle& t : closed) {
-        for (const int node : t) {
-            if (!fixed[static_cast<std::size_t>(node)]) unknown.emplace(node, 0);
-        }
-    }
-    int count = 0;
-    for (auto& [node, row] : unknown) row = count++;
-
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(count, 2);
-    const auto couple = [&](int row, int node, double weight) {
-        entries.emplace_back(row, row, weight);
-        if (fixed[static_cast<std::size_t>(node)]) {
-            right.row(row) += weight * uv_[static_cast<std::size_t>(node)].transpose();
-        } else {
-            entries.emplace_back(row, unknown.at(node), -weight);
-        }
-    };
-    for (const Triangle& t : closed) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (fixed[static_cast<std::size_t>(t[k])]) continue;
-            const Vector3d &at = places[static_cast<std::size_t>(t[k])],
-                           &a = places[static_cast<std::size_t>(t[(k + 1) % 3])],
-                           &b = places[static_cast<std::size_t>(t[(k + 2) % 3])];
-            const double tangent = half_tangent(at, a, b);
-            const int row = unknown.at(t[k]);
-            couple(row, t[(k + 1) % 3], tangent / (a - at).norm());
-            couple(row, t[(k + 2) % 3], tangent / (b - at).norm());
-        }
-    }
-    Eigen::SparseMatrix<double> system(count, count);
-    system.setFromTriplets(entries.begin(), entries.end());
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(system);
-    if (solver.info() != Eigen::Success) throw std::runtime_error("the chart's system has no solution");
-    const Eigen::MatrixX2d solved = solver.solve(right);
-    for (const auto& [node, row] : unknown) uv_[static_cast<std::size_t>(node)] = solved.row(row).transpose();
+    MeanValues(closed, outer_, uv_).solve_into(uv_);
 }
 
 void Chart::build_grid() {

@@ -2,9 +2,9 @@
 // at a wanted spacing and a triangulation that keeps feature contours. Because a node is an anchor, every
 // posed scan of the same topology gives the mesh in that posture. [ATR98, "Face and lip mesh adaptation"]
 // Departure: the report adapts one generic mesh to each scan by field morphing; scans that share a topology
-// need no morphing, only anchors. The chart is Floater's: each inner node is the mean-value weighted mean of
-// its neighbours, the outer loop lies on the unit circle, holes are closed by a hub. All weights are
-// positive, so no triangle flips.
+// need no morphing, only anchors. The chart is Floater's [Floater03]: each inner node is the mean-value
+// weighted mean of its neighbours, the outer loop lies on the unit circle, holes are closed by a hub. All
+// weights are positive, so no triangle flips.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "facemodel/delaunay.hpp"
+#include "facemodel/triangulation.hpp"
 
 namespace viaface {
 namespace {

@@ -1,4 +1,4 @@
-#include "facemodel/delaunay.hpp"
+#include "facemodel/triangulation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-#include "facemodel/delaunay.hpp"
+#include "facemodel/triangulation.hpp"
 
 namespace viaface {
 namespace {
