@@ -134,21 +134,25 @@ static_assert(kEighth == 1 << 4);
 // is below zero in the lanes of other samples.
 template <class Visit>
 VIAFACE_INLINE void for_pairs(const Prepared& p, const Surface& s, const Visit& visit) {
-    const WideInt kSecond = {0, 0, 0, 0, 1, 1, 1, 1};
-    const Wide sample_right = __builtin_convertvector(kRightEighths, Wide) * 0.125f;
-    const Wide sample_up = __builtin_convertvector(kUpEighths, Wide) * 0.125f;
+    constexpr WideInt kPixel = {0, 0, 0, 0, 1, 1, 1, 1};
+    const Wide sample_right = __builtin_convertvector(kRightEighths, Wide) * 0.125f - s.x;
+    const Wide sample_up = __builtin_convertvector(kUpEighths, Wide) * 0.125f - s.y;
+    const Wide slope = wide(s.nearness_right);
     for (std::int32_t block = p.bounds.left; block < p.bounds.right; block += kBlock) {
         const std::int32_t end = smaller(block + kBlock, p.bounds.right);
         BlockEdge e0(p.edges[0], block, p.bounds.bottom), e1(p.edges[1], block, p.bounds.bottom),
             e2(p.edges[2], block, p.bounds.bottom);
+        const Wide first_right = sample_right + float(block);
+        const WideInt first_room = end - 1 - block - kPixel;
         for (std::int32_t y = p.bounds.bottom; y < p.bounds.top; ++y) {
-            WideInt a = e0.at, b = e1.at, c = e2.at;
-            const Wide row = s.nearness_up * (sample_up + (float(y) - s.y)) + s.nearness;
+            WideInt a = e0.at, b = e1.at, c = e2.at, room = first_room;
+            Wide right = first_right;
+            const Wide row = s.nearness_up * (sample_up + float(y)) + s.nearness;
             for (std::int32_t x = block; x < end; x += 2) {
-                const WideInt outside = a | b | c | (end - 1 - x - kSecond);
-                if (negative_lanes(outside) != 0xff)
-                    visit(x, y, outside, row + s.nearness_right * (sample_right + (float(x) - s.x)));
+                const WideInt outside = a | b | c | room;
+                if (negative_lanes(outside) != 0xff) visit(x, y, outside, row + slope * right);
                 a += e0.right, b += e1.right, c += e2.right;
+                room -= 2, right += 2.0f;
             }
             e0.at += e0.up, e1.at += e1.up, e2.at += e2.up;
         }
@@ -205,21 +209,23 @@ class StripeDrawing {
 
     // What is in front. The first of the lashes.
     std::int32_t settle() {
+        const std::ptrdiff_t origin = sample(0, 0), row = std::ptrdiff_t(scene_.width + 1) * kSamples;
+        float* const near = scratch_.nearness;
+        std::int32_t* const seen = scratch_.seen;
         for (std::int32_t i = 0; i < stripe_.count; ++i) {
             if (scene_.facets[stripe_.facets[i]].shade == Shade::kLash) return i;
             const Prepared p = prepare(i);
             if (!p.drawn) continue;
-            for_pairs(
-                p, scratch_.surfaces[i],
-                [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness)
-                    __attribute__((always_inline)) {
-                        float* const near = scratch_.nearness + sample(x, y);
-                        std::int32_t* const seen = scratch_.seen + sample(x, y);
-                        const Wide before = load<Wide>(near);
-                        const WideInt in_front = (outside >= 0) & (nearness > before);
-                        store(near, in_front ? nearness : before);
-                        store(seen, in_front ? wide(i + 1) : load<WideInt>(seen));
-                    });
+            const WideInt id = wide(i + 1);
+            const auto keep_nearer = [=](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness)
+                __attribute__((always_inline)) {
+                const std::ptrdiff_t at = origin + y * row + std::ptrdiff_t(x) * kSamples;
+                const auto before = load<Wide>(near + at);
+                const WideInt in_front = (outside >= 0) & (nearness > before);
+                store(near + at, in_front ? nearness : before);
+                store(seen + at, in_front ? id : load<WideInt>(seen + at));
+            };
+            for_pairs(p, scratch_.surfaces[i], keep_nearer);
         }
         return stripe_.count;
     }

@@ -34,9 +34,27 @@ VIAFACE_INLINE void store(T* to, Vector v) {
 }
 
 // Of two the second where they cannot be compared.
-VIAFACE_INLINE Wide greater(Wide a, Wide b) { return a > b ? a : b; }
-VIAFACE_INLINE Wide lesser(Wide a, Wide b) { return a < b ? a : b; }
-VIAFACE_INLINE Four greater(Four a, Four b) { return a > b ? a : b; }
+VIAFACE_INLINE Wide greater(Wide a, Wide b) {
+#if defined(__AVX__)
+    return _mm256_max_ps(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
+VIAFACE_INLINE Wide lesser(Wide a, Wide b) {
+#if defined(__AVX__)
+    return _mm256_min_ps(a, b);
+#else
+    return a < b ? a : b;
+#endif
+}
+VIAFACE_INLINE Four greater(Four a, Four b) {
+#if defined(__SSE2__)
+    return _mm_max_ps(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
 VIAFACE_INLINE Wide positive(Wide v) { return greater(v, Wide{}); }
 
 VIAFACE_INLINE Wide root(Wide v) {
