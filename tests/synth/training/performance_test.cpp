@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "synth/compare/compare_ema.hpp"
 #include "tests/synth/training/spoken.hpp"
 
 namespace viaface {
@@ -147,19 +146,8 @@ TEST_F(PerformerTest, RoundedVowelsAreNarrowerThanSpreadOnes) {
 }
 
 TEST_F(PerformerTest, FollowsAMeasuredTalker) {
-    const fs::path folder = kData / "haskins_f01";
-    if (!fs::exists(folder)) GTEST_SKIP() << "needs the recording in " << folder;
-    const EmaRecording recording =
-        read_ema(folder / "F01_B01_S01_R01_N.csv", folder / "F01_B01_S01_R01_N.phones.txt");
-    const EmaComparison result = compare(recording, performer_->perform(recording.phones));
-    EXPECT_GT(result.opening.correlation, 0.8) << report(result);
-    EXPECT_GT(result.protrusion.correlation, 0.6) << report(result);
-    for (const Agreement& a : {result.opening, result.protrusion, result.jaw}) {
-        EXPECT_GT(a.ratio, 0.7) << report(result);
-        EXPECT_LT(a.ratio, 1.4) << report(result);
-    }
-    for (const ClosureTiming& c : result.bilabials)
-        EXPECT_NEAR(c.moved_s, c.measured_s, 0.0201) << report(result);
+    testing::expect_follows_a_measured_talker(
+        [this](const PhoneSequence& phones) { return performer_->perform(phones); });
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <array>
 
 #include "base/whole_file.hpp"
-#include "synth/compare/compare_ema.hpp"
 #include "synth/training/corpus.hpp"
 #include "synth/training/learn.hpp"
+#include "tests/synth/training/spoken.hpp"
 #include "viapoints/codex_file.hpp"
 #include "viapoints/codex_select.hpp"
 #include "viapoints/codex_speak.hpp"
@@ -112,19 +112,7 @@ TEST_F(TaughtCodex, ClosesOpensRoundsAndTucksInUnseenSentences) {
 }
 
 TEST_F(TaughtCodex, FollowsAMeasuredTalker) {
-    const fs::path folder = kRoot / ".." / "shared" / "data" / "haskins_f01";
-    if (!fs::exists(folder)) GTEST_SKIP() << "needs the recording in " << folder;
-    const EmaRecording recording =
-        read_ema(folder / "F01_B01_S01_R01_N.csv", folder / "F01_B01_S01_R01_N.phones.txt");
-    const EmaComparison result = compare(recording, say(recording.phones));
-    EXPECT_GT(result.opening.correlation, 0.8) << report(result);
-    EXPECT_GT(result.protrusion.correlation, 0.6) << report(result);
-    for (const Agreement& a : {result.opening, result.protrusion, result.jaw}) {
-        EXPECT_GT(a.ratio, 0.7) << report(result);
-        EXPECT_LT(a.ratio, 1.4) << report(result);
-    }
-    for (const ClosureTiming& c : result.bilabials)
-        EXPECT_NEAR(c.moved_s, c.measured_s, 0.0201) << report(result);
+    testing::expect_follows_a_measured_talker([this](const PhoneSequence& phones) { return say(phones); });
 }
 
 }  // namespace
