@@ -1,5 +1,6 @@
 #include "facemodel/triangulation.hpp"
 
+#include <deque>
 #include <numeric>
 #include <stdexcept>
 
@@ -41,21 +42,23 @@ Triangulation::Triangulation(const std::vector<Vector2d>& places) : places_(rota
     flip_while({}, [&](int a, int b, int c, int d) { return obtuse_opposite(at(a), at(b), at(c), at(d)); });
 }
 
+// Each edge in the way is flipped as soon as its two triangles make a convex quad. [Sloan93]
 void Triangulation::insert(int a, int b) {
-    for (int guard = 0; guard < 10000 && !sides_.contains(edge_of(a, b)); ++guard) {
-        std::vector<Edge> crossing;
-        for (const auto& [edge, sides] : sides_) {
-            if (crosses(edge, a, b)) crossing.push_back(edge);
-        }
-        bool flipped = false;
-        for (std::size_t k = 0; k < crossing.size() && !flipped; ++k) {
-            const Edge edge = crossing[(k + static_cast<std::size_t>(guard)) % crossing.size()];
-            const auto [c, d] = opposite(edge);
-            if (d < 0 || !convex(edge, c, d)) continue;
+    std::deque<Edge> crossing;
+    for (const auto& [edge, sides] : sides_) {
+        if (crosses(edge, a, b)) crossing.push_back(edge);
+    }
+    const std::size_t most = crossing.size() * crossing.size() + 1;
+    for (std::size_t tries = 0; !crossing.empty() && tries < most; ++tries) {
+        const Edge edge = crossing.front();
+        crossing.pop_front();
+        const auto [c, d] = opposite(edge);
+        if (d >= 0 && convex(edge, c, d)) {
             flip(edge);
-            flipped = true;
+            if (crosses(edge_of(c, d), a, b)) crossing.push_back(edge_of(c, d));
+        } else {
+            crossing.push_back(edge);
         }
-        if (!flipped) break;
     }
     if (!sides_.contains(edge_of(a, b))) throw std::runtime_error("a contour crosses itself in the chart");
 }

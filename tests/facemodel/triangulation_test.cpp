@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <stdexcept>
 
 #include "ensemble.hpp"
@@ -40,6 +41,29 @@ TEST(Delaunay, AGridIsCoveredOnce) {
         area += twice / 2;
     }
     EXPECT_NEAR(area, 64, 1e-9);
+}
+
+TEST(Triangulation, EdgesAskedForArePutInAndTheHullStaysCovered) {
+    const Flat points = test::noise(60, 2, 22);
+    std::vector<Eigen::Vector2d> places;
+    for (Eigen::Index i = 0; i < points.rows(); ++i) places.emplace_back(points.row(i));
+    Triangulation mesh(places);
+    const auto area = [&] {
+        double twice = 0;
+        for (const Triangle& t : mesh.triangles()) twice += turn(places[t[0]], places[t[1]], places[t[2]]);
+        return twice / 2;
+    };
+    const auto has_edge = [&](int a, int b) {
+        return std::ranges::any_of(mesh.triangles(), [&](const Triangle& t) {
+            return std::ranges::count(t, a) + std::ranges::count(t, b) == 2;
+        });
+    };
+    const double before = area();
+    ASSERT_FALSE(has_edge(0, 1));
+    mesh.insert(0, 1);
+    EXPECT_TRUE(has_edge(0, 1));
+    EXPECT_NEAR(area(), before, 1e-12);
+    for (const Triangle& t : mesh.triangles()) EXPECT_GT(turn(places[t[0]], places[t[1]], places[t[2]]), 0);
 }
 
 TEST(Delaunay, RefusesWhatHasNoTriangles) {
