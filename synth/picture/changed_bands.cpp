@@ -36,37 +36,53 @@ Extent within(const Extent& extent, const Rect& rect) {
             std::min<float>(extent.top, rect.bottom + rect.height)};
 }
 
-ChangedBands::ChangedBands(int width, int height) : width_(width), height_(height) {
-    rows_.assign((height + kTile - 1) / kTile, empty());
-}
+ChangedBands::ChangedBands(int width, int height)
+    : width_(width),
+      height_(height),
+      columns_((width + kTile - 1) / kTile),
+      rows_((height + kTile - 1) / kTile),
+      marked_(std::size_t(columns_) * rows_) {}
 
 void ChangedBands::mark(const Extent& extent) {
     if (!touches(extent, {0, 0, width_, height_})) return;
-    const int left = std::max(0, int(extent.left));
-    const int right = std::min(width_, int(extent.right) + 1);
-    const int first = std::max(0, int(extent.bottom) / kTile);
-    const int last = std::min(int(rows_.size()) - 1, int(extent.top) / kTile);
-    for (int row = first; row <= last; ++row) {
-        rows_[row] = {std::min(rows_[row].left, left), std::max(rows_[row].right, right)};
+    const int left = std::max(0, int(extent.left) / kTile);
+    const int right = std::min(columns_ - 1, int(extent.right) / kTile);
+    const int last = std::min(rows_ - 1, int(extent.top) / kTile);
+    for (int row = std::max(0, int(extent.bottom) / kTile); row <= last; ++row) {
+        const auto tiles = marked_.begin() + std::ptrdiff_t(row) * columns_;
+        std::fill(tiles + left, tiles + right + 1, 1);
     }
+}
+
+std::vector<ChangedBands::Run> ChangedBands::runs_of(int row) const {
+    std::vector<Run> runs;
+    for (int column = 0; column < columns_; ++column) {
+        if (!marked_[std::size_t(row) * columns_ + column]) continue;
+        const bool near = !runs.empty() && column - runs.back().end <= kGap;
+        if (!near) runs.push_back({column, column});
+        runs.back().end = column + 1;
+    }
+    return runs;
 }
 
 std::vector<Rect> ChangedBands::take() {
     std::vector<Rect> bands;
-    bool open = false;
-    for (int row = 0; row < int(rows_.size()); ++row) {
-        const auto [left, right] = rows_[row];
-        if (left < right) {
-            if (!open) bands.push_back({left, row * kTile, 0, 0});
-            Rect& band = bands.back();
-            const int band_right = std::max(band.left + band.width, right);
-            band.left = std::min(band.left, left);
-            band.width = band_right - band.left;
+    std::vector<std::size_t> below;  // bands that reach the row
+    for (int row = 0; row < rows_; ++row) {
+        std::vector<std::size_t> reaching;
+        for (const auto [first, end] : runs_of(row)) {
+            const int left = first * kTile, right = std::min(end * kTile, width_);
+            const auto same = std::ranges::find_if(below, [&](std::size_t i) {
+                return bands[i].left == left && bands[i].left + bands[i].width == right;
+            });
+            reaching.push_back(same == below.end() ? bands.size() : *same);
+            if (same == below.end()) bands.push_back({left, row * kTile, right - left, 0});
+            Rect& band = bands[reaching.back()];
             band.height = std::min((row + 1) * kTile, height_) - band.bottom;
         }
-        open = left < right;
-        rows_[row] = empty();
+        below.swap(reaching);
     }
+    std::ranges::fill(marked_, 0);
     return bands;
 }
 

@@ -1,8 +1,9 @@
 // Which rectangles of the picture must be drawn again: what does not move is not drawn twice. Triangles with
-// a changed corner mark the rows of tiles they covered and cover; neighbouring marked rows form a band.
+// a changed corner mark the tiles they covered and cover; neighbouring marked tiles form a band.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "synth/picture/rect.hpp"
@@ -32,13 +33,15 @@ class ChangedBands {
 
   private:
     static constexpr int kTile = 16;  // pixels
-    struct Row {
-        int left, right;
+    static constexpr int kGap = 1;    // tiles that are not worth leaving out
+    struct Run {
+        int first, end;  // columns of tiles
     };
-    Row empty() const { return {width_, 0}; }
+    std::vector<Run> runs_of(int row) const;
 
     int width_, height_;
-    std::vector<Row> rows_;
+    int columns_, rows_;                // of tiles
+    std::vector<std::uint8_t> marked_;  // [rows x columns]
 };
 
 }  // namespace viaface

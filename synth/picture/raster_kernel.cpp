@@ -15,14 +15,6 @@ constexpr WideInt kUpEighths = {-3, -1, 1, 3, -3, -1, 1, 3};
 constexpr Four kSampleRight = {-0.125f, 0.375f, -0.375f, 0.125f};
 constexpr Four kSampleUp = {-0.375f, -0.125f, 0.125f, 0.375f};
 
-template <class T>
-VIAFACE_INLINE T smaller(T a, T b) {
-    return a < b ? a : b;
-}
-template <class T>
-VIAFACE_INLINE T larger(T a, T b) {
-    return a > b ? a : b;
-}
 VIAFACE_INLINE Four magnitude(Four v) { return greater(v, -v); }
 
 // Positive on the left of the way from `a` to `b`, on the grid.
@@ -39,8 +31,6 @@ struct Edge {
 };
 
 VIAFACE_INLINE std::int64_t middle(std::int64_t pixel) { return pixel * kSteps + kSteps / 2; }
-VIAFACE_INLINE std::int32_t floor_pixel(std::int32_t place) { return place >> 7; }
-static_assert(1 << 7 == kSteps);
 
 struct Prepared {
     Edge edges[3];  // opposite the corners
@@ -67,16 +57,6 @@ VIAFACE_INLINE const Level* level_of(const Mipmap& mipmap, const Node* const (&n
     return &mipmap.levels[level];
 }
 
-VIAFACE_INLINE Bounds common(const Bounds& a, const Bounds& b) {
-    return {larger(a.left, b.left), larger(a.bottom, b.bottom), smaller(a.right, b.right),
-            smaller(a.top, b.top)};
-}
-
-VIAFACE_INLINE Bounds box(const Place& a, const Place& b, const Place& c) {
-    return {floor_pixel(smaller(smaller(a.x, b.x), c.x)), floor_pixel(smaller(smaller(a.y, b.y), c.y)),
-            floor_pixel(larger(larger(a.x, b.x), c.x)) + 1, floor_pixel(larger(larger(a.y, b.y), c.y)) + 1};
-}
-
 VIAFACE_INLINE Prepared prepare(const Scene& scene, const Bounds& seen, const Facet& facet, Surface& s) {
     std::int32_t n0 = facet.node[0], n1 = facet.node[1], n2 = facet.node[2];
     const Edge side(scene.places[n0], scene.places[n1]);
@@ -86,7 +66,7 @@ VIAFACE_INLINE Prepared prepare(const Scene& scene, const Bounds& seen, const Fa
         n1 = n2, n2 = swapped, area = -area;
     }
     const Place &a = scene.places[n0], &b = scene.places[n1], &c = scene.places[n2];
-    Prepared p{{Edge(b, c), Edge(c, a), Edge(a, b)}, common(box(a, b, c), seen), false};
+    Prepared p{{Edge(b, c), Edge(c, a), Edge(a, b)}, common(box_of(a, b, c), seen), false};
     if (area <= 0 || p.bounds.left >= p.bounds.right || p.bounds.bottom >= p.bounds.top) return p;
     p.drawn = true;
     const Place* places[3] = {&a, &b, &c};

@@ -87,8 +87,6 @@ struct StripeList {
     std::vector<std::uint32_t> facets;
 };
 
-int stripes_in(const Rect& rect) { return (rect.height + raster::kStripeRows - 1) / raster::kStripeRows; }
-
 class RasterPainter : public Painter {
   public:
     RasterPainter(const Face& face, const View& view, const Drawing& drawing)
@@ -101,7 +99,8 @@ class RasterPainter : public Painter {
           nodes_(face.rest.rows()),
           background_(std::size_t(view.width) * view.height),
           draw_stripe_(kernel_of(drawing.instructions)),
-          pool_(std::max(1, drawing.threads)) {
+          pool_(std::max(1, drawing.threads)),
+          rows_((view.height + raster::kStripeRows - 1) / raster::kStripeRows) {
         prepare_nodes(face);
         prepare_textures(face);
         const Texture background = make_background(view);
@@ -208,43 +207,40 @@ class RasterPainter : public Painter {
     // The stripes of the rectangles, each with what may show in it. How many there are.
     int list_stripes(std::span<const Rect> rects, const Bounds& opening) {
         int count = 0;
-        for (const Rect& rect : rects) count += stripes_in(rect);
-        if (int(stripes_.size()) < count) stripes_.resize(count);
-        StripeList* first = stripes_.data();
+        for (std::vector<int>& row : rows_) row.clear();
         for (const Rect& rect : rects) {
-            const int top = rect.bottom + rect.height, right = rect.left + rect.width;
-            for (int i = 0; i < stripes_in(rect); ++i) {
-                const int bottom = rect.bottom + i * raster::kStripeRows;
-                first[i].bounds = {rect.left, bottom, right, std::min(bottom + raster::kStripeRows, top)};
-                first[i].facets.clear();
+            const int top = rect.bottom + rect.height;
+            for (int bottom = rect.bottom; bottom < top;) {
+                const int row = bottom / raster::kStripeRows;
+                const int end = std::min(top, (row + 1) * raster::kStripeRows);
+                if (int(stripes_.size()) == count) stripes_.emplace_back();
+                stripes_[count].bounds = {rect.left, bottom, rect.left + rect.width, end};
+                stripes_[count].facets.clear();
+                rows_[row].push_back(count++);
+                bottom = end;
             }
-            list_facets({rect.left, rect.bottom, right, top}, opening, first);
-            first += stripes_in(rect);
         }
+        list_facets(opening);
         return count;
     }
 
-    void list_facets(const Bounds& rect, const Bounds& opening, StripeList* stripes) const {
+    void list_facets(const Bounds& opening) {
         for (std::uint32_t i = 0; i < facets_.size(); ++i) {
             const raster::Facet& facet = facets_[i];
             const raster::Place &a = places_[facet.node[0]], &b = places_[facet.node[1]],
                                 &c = places_[facet.node[2]];
             if (a.nearness == 0 || b.nearness == 0 || c.nearness == 0) continue;
             if (!facet.two_sided && turned_away(a, b, c)) continue;
-            const int left = std::min({a.x, b.x, c.x}) / raster::kSteps - 1;
-            const int right = std::max({a.x, b.x, c.x}) / raster::kSteps + 1;
-            int bottom = std::min({a.y, b.y, c.y}) / raster::kSteps - 1;
-            int top = std::max({a.y, b.y, c.y}) / raster::kSteps + 1;
-            if (left >= rect.right || right < rect.left) continue;
-            bottom = std::max(bottom, rect.bottom), top = std::min(top, rect.top - 1);
-            if (facet.inside) {
-                if (left >= opening.right || right < opening.left) continue;
-                bottom = std::max(bottom, opening.bottom), top = std::min(top, opening.top - 1);
+            Bounds box = raster::box_of(a, b, c);
+            if (facet.inside) box = raster::common(box, opening);
+            const int first = std::max(0, box.bottom) / raster::kStripeRows;
+            const int last = std::min(height_, box.top) - 1;
+            for (int row = first; row * raster::kStripeRows <= last; ++row) {
+                for (const int stripe : rows_[row]) {
+                    const Bounds& seen = stripes_[stripe].bounds;
+                    if (box.left < seen.right && box.right > seen.left) stripes_[stripe].facets.push_back(i);
+                }
             }
-            if (bottom > top) continue;
-            const int last = (top - rect.bottom) / raster::kStripeRows;
-            for (int s = (bottom - rect.bottom) / raster::kStripeRows; s <= last; ++s)
-                stripes[s].facets.push_back(i);
         }
     }
 
@@ -267,6 +263,7 @@ class RasterPainter : public Painter {
     StripePool pool_;
     std::vector<Workspace> workspaces_;
     std::vector<StripeList> stripes_;
+    std::vector<std::vector<int>> rows_;  // the stripes of each row of stripes
 };
 
 }  // namespace

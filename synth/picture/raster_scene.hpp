@@ -1,5 +1,6 @@
 // What the rasteriser's kernels read and write: plain arrays, as the kernels are compiled once per
-// instruction set and may share no inline function with the rest of the program.
+// instruction set and may share no inline function with the rest of the program but those that are always
+// inlined.
 //
 // A stripe of rows is drawn in three steps. Triangles first settle, for four samples per pixel, what is in
 // front (a visibility buffer: C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach
@@ -62,6 +63,31 @@ struct Facet {
 struct Bounds {
     std::int32_t left, bottom, right, top;  // pixels; right and top are outside
 };
+
+#define VIAFACE_INLINE inline __attribute__((always_inline))
+
+template <class T>
+VIAFACE_INLINE T smaller(T a, T b) {
+    return a < b ? a : b;
+}
+template <class T>
+VIAFACE_INLINE T larger(T a, T b) {
+    return a > b ? a : b;
+}
+
+VIAFACE_INLINE std::int32_t floor_pixel(std::int32_t place) { return place >> 7; }
+static_assert(1 << 7 == kSteps);
+
+VIAFACE_INLINE Bounds common(const Bounds& a, const Bounds& b) {
+    return {larger(a.left, b.left), larger(a.bottom, b.bottom), smaller(a.right, b.right),
+            smaller(a.top, b.top)};
+}
+
+// The pixels in which a triangle may have samples.
+VIAFACE_INLINE Bounds box_of(const Place& a, const Place& b, const Place& c) {
+    return {floor_pixel(smaller(smaller(a.x, b.x), c.x)), floor_pixel(smaller(smaller(a.y, b.y), c.y)),
+            floor_pixel(larger(larger(a.x, b.x), c.x)) + 1, floor_pixel(larger(larger(a.y, b.y), c.y)) + 1};
+}
 
 struct Scene {
     const Place* places;

@@ -8,10 +8,10 @@
 
 #include <cstdint>
 
+#include "synth/picture/raster_scene.hpp"
+
 namespace viaface::raster::VIAFACE_KERNEL {
 namespace {
-
-#define VIAFACE_INLINE inline __attribute__((always_inline))
 
 typedef float Wide __attribute__((vector_size(32)));
 typedef std::int32_t WideInt __attribute__((vector_size(32)));
