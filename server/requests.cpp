@@ -58,11 +58,12 @@ VideoRequest video_request_of(const nlohmann::json& body) {
     read_speech(fields, request);
     read_view(fields, request.say.view);
     if (const auto fps = fields.number("fps")) request.say.fps = frame_rate(*fps);
-    if (const auto format = fields.text("format")) request.format = film_format(*format);
+    const auto format = fields.text("format");
+    if (format && *format != "mp4") throw InputError("format", *format, "mp4: only it can be streamed");
     take(fields.whole_number("seed"), request.say.seed);
     fields.refuse_unknown();
     check(request.say.view);
-    validate(FilmSpec{request.say.view.width, request.say.view.height, request.say.fps, request.format});
+    validate(FilmSpec{request.say.view.width, request.say.view.height, request.say.fps});
     return request;
 }
 

@@ -14,7 +14,6 @@ inline constexpr const char* kDefaultTalker = "momo";
 struct VideoRequest {
     SayRequest say;
     std::string talker = kDefaultTalker;
-    FilmFormat format = FilmFormat::kMp4;
 };
 
 // "640x480" into the view's size; InputError("size", ...).

@@ -179,8 +179,6 @@ class Service::Routes {
         server.Post("/v1/videos", [this](const auto& request, auto& response) {
             auto job = std::make_shared<VideoJob>();
             job->request = video_request_of(body_of(request));
-            if (job->request.format != FilmFormat::kMp4)
-                throw InputError("format", "", "mp4: only it can be streamed");
             const Script checked(job->request.say.speech);
             job->talker = shelf_.load(job->request.talker);
             job->place = admission_.reserve();
