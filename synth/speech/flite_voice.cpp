@@ -133,7 +133,9 @@ std::vector<SpokenPhone> spoken_phones(const cst_utterance* utterance) {
     std::vector<SpokenPhone> spoken;
     const cst_item* word = nullptr;
     for (const cst_item* segment = segments_of(utterance); segment; segment = item_next(segment)) {
-        SpokenPhone phone{text_feature(segment, "name"), end_of(segment)};
+        SpokenPhone phone;
+        phone.name = text_feature(segment, "name");
+        phone.end_s = end_of(segment);
         if (const cst_item* syllable = syllable_of(segment)) {
             phone.in_word = true;
             phone.stress = text_feature(syllable, "stress");
