@@ -70,7 +70,9 @@ const std::vector<SpokenPhone>& spoken_phones() {
         std::vector<SpokenPhone> spoken;
         for (std::string line; std::getline(in, line);) {
             if (line.empty() || line.front() == '#') continue;
-            const Recital recital = recite(talker.codex, Script(SpeechRequest{line}).utterance(0));
+            SpeechRequest request;
+            request.text = line;
+            const Recital recital = recite(talker.codex, Script(request).utterance(0));
             const PhoneSequence& phones = recital.utterance.phones;
             for (std::size_t i = 0; i < phones.phones.size(); ++i) {
                 const PhoneInfo& info = phone_info(phones.phones[i].phone);
