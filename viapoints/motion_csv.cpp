@@ -1,7 +1,6 @@
 #include "viapoints/motion_csv.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
+#include "viapoints/cells.hpp"
 
 namespace viaface {
 namespace {
@@ -36,37 +36,8 @@ std::optional<int> meant_coordinate(std::string_view name) {
     return std::nullopt;
 }
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
 bool is_one_line(std::string_view comment) {
     return std::none_of(comment.begin(), comment.end(), [](char c) { return is_control(c) && c != '\t'; });
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
-
-std::string_view cut(std::string_view& rest, char separator) {
-    const std::size_t at = std::min(rest.find(separator), rest.size());
-    const std::string_view piece = rest.substr(0, at);
-    rest.remove_prefix(std::min(at + 1, rest.size()));
-    return piece;
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-    std::vector<std::string_view> cells;
-    for (bool more = true; more;) {
-        more = line.find(',') != line.npos;
-        cells.push_back(trimmed(cut(line, ',')));
-    }
-    return cells;
-}
-
-bool is_nan_word(std::string_view cell) {
-    return cell.empty() ||
-           (cell.size() == 3 && (cell[0] | 32) == 'n' && (cell[1] | 32) == 'a' && (cell[2] | 32) == 'n');
 }
 
 // Which place of the motion a column fills.
@@ -83,16 +54,15 @@ class Parser {
     MotionCsv parse() {
         while (!rest_.empty()) {
             ++line_;
-            std::string_view line = cut(rest_, '\n');
-            if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+            const std::string_view line = cut_line(rest_);
             const std::string_view content = trimmed(line);
             if (content.empty()) continue;
             if (content.front() == '#') {
                 comment(line.substr(line.find('#') + 1));
             } else if (columns_.empty()) {
-                header(cells_of(line));
+                header(cells_of(line, ','));
             } else {
-                sample(cells_of(line));
+                sample(cells_of(line, ','));
             }
         }
         if (result_.motion.time_s.empty())
@@ -184,13 +154,10 @@ class Parser {
     }
 
     double number(std::string_view cell, const Column& column) const {
-        if (is_nan_word(cell)) return kNaN;
-        double value = 0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) {
-            fail(column.name, cell, "a finite number with a point, nan, or nothing");
-        }
-        return value;
+        if (is_missing(cell)) return kNaN;
+        const auto value = finite_number(cell);
+        if (!value) fail(column.name, cell, "a finite number with a point, nan, or nothing");
+        return *value;
     }
 
     MotionCsv finished() {
@@ -206,12 +173,6 @@ class Parser {
     std::vector<double> positions_;  // [samples x 114]
     MotionCsv result_;
 };
-
-void append_number(std::string& text, double value) {
-    if (std::isnan(value)) return;  // an empty cell
-    char digits[32];
-    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
 
 bool is_plain(std::string_view name) {
     return !name.empty() && trimmed(name) == name && name.find(',') == name.npos &&
