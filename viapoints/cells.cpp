@@ -4,19 +4,34 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/error.hpp"
+
 namespace viaface {
+
+Lines::Lines(std::string_view text, std::string field) : rest_(text), field_(std::move(field)) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+}
+
+bool Lines::next() {
+    if (rest_.empty()) return false;
+    ++number_;
+    line_ = cut(rest_, '\n');
+    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+    return true;
+}
+
+void Lines::fail(std::string_view column, std::string_view value, const std::string& allowed) const {
+    std::string where = field_ + " line " + std::to_string(number_);
+    if (!column.empty()) where += ", column " + std::string(column);
+    throw InputError(where, std::string(value), allowed);
+}
 
 std::string_view cut(std::string_view& rest, char separator) {
     const std::size_t at = std::min(rest.find(separator), rest.size());
     const std::string_view piece = rest.substr(0, at);
     rest.remove_prefix(std::min(at + 1, rest.size()));
     return piece;
-}
-
-std::string_view cut_line(std::string_view& rest) {
-    std::string_view line = cut(rest, '\n');
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    return line;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -9,9 +9,27 @@
 
 namespace viaface {
 
+// The lines of a text, counted from 1 (LF or CRLF; a byte-order mark is left out), and errors that name them.
+class Lines {
+  public:
+    Lines(std::string_view text, std::string field);
+
+    bool next();  // false at the end
+    std::string_view line() const { return line_; }
+    std::size_t number() const { return number_; }
+    void go_to(std::size_t number) { number_ = number; }  // for an error about a line gone by
+
+    // InputError: "field line 3, column chin_x_mm"; column may be empty.
+    [[noreturn]] void fail(std::string_view column, std::string_view value, const std::string& allowed) const;
+
+  private:
+    std::string_view rest_, line_;
+    std::string field_;
+    std::size_t number_ = 0;
+};
+
 // What stands before the separator, or all of it; `rest` goes on behind the separator.
 std::string_view cut(std::string_view& rest, char separator);
-std::string_view cut_line(std::string_view& rest);  // LF or CRLF
 
 std::string_view trimmed(std::string_view text);  // of spaces and tabs at both ends
 std::vector<std::string_view> cells_of(std::string_view line, char separator);  // each trimmed

@@ -49,13 +49,11 @@ struct Column {
 
 class Parser {
   public:
-    Parser(std::string_view text, std::string field) : rest_(text), field_(std::move(field)) {}
+    Parser(std::string_view text, const std::string& field) : lines_(text, field) {}
 
     MotionCsv parse() {
-        while (!rest_.empty()) {
-            ++line_;
-            const std::string_view line = cut_line(rest_);
-            const std::string_view content = trimmed(line);
+        while (lines_.next()) {
+            const std::string_view line = lines_.line(), content = trimmed(line);
             if (content.empty()) continue;
             if (content.front() == '#') {
                 comment(line.substr(line.find('#') + 1));
@@ -66,36 +64,29 @@ class Parser {
             }
         }
         if (result_.motion.time_s.empty())
-            fail("", columns_.empty() ? "no header" : "no sample", "a header and at least one sample");
+            lines_.fail("", columns_.empty() ? "no header" : "no sample", "a header and at least one sample");
         return finished();
     }
 
   private:
-    [[noreturn]] void fail(std::string_view column, std::string_view value,
-                           const std::string& allowed) const {
-        std::string where = field_ + " line " + std::to_string(line_);
-        if (!column.empty()) where += ", column " + std::string(column);
-        throw InputError(where, std::string(value), allowed);
-    }
-
     void comment(std::string_view text) {
         if (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-        if (!is_one_line(text)) fail("", text, "a comment without control characters");
+        if (!is_one_line(text)) lines_.fail("", text, "a comment without control characters");
         result_.comments.emplace_back(text);
     }
 
     void header(const std::vector<std::string_view>& names) {
-        if (names.front() != "time_s") fail("1", names.front(), "time_s as the first column");
+        if (names.front() != "time_s") lines_.fail("1", names.front(), "time_s as the first column");
         if (names.size() > kMotionCsvColumns) {
-            fail("", std::to_string(names.size()) + " columns",
-                 "at most " + std::to_string(kMotionCsvColumns));
+            lines_.fail("", std::to_string(names.size()) + " columns",
+                        "at most " + std::to_string(kMotionCsvColumns));
         }
         std::set<std::string_view> seen;
         for (const std::string_view name : names) {
             if (name.empty() || std::any_of(name.begin(), name.end(), is_control)) {
-                fail(std::to_string(seen.size() + 1), name, "a name without control characters");
+                lines_.fail(std::to_string(seen.size() + 1), name, "a name without control characters");
             }
-            if (!seen.insert(name).second) fail(name, name, "each column once");
+            if (!seen.insert(name).second) lines_.fail(name, name, "each column once");
             columns_.push_back(column(name));
         }
         require_triples();
@@ -108,7 +99,7 @@ class Parser {
 
     Column column(std::string_view name) const {
         const auto meant = meant_coordinate(name);
-        if (meant && name != coordinate_name(*meant)) fail(name, name, coordinate_name(*meant));
+        if (meant && name != coordinate_name(*meant)) lines_.fail(name, name, coordinate_name(*meant));
         return {std::string(name), meant.value_or(-1)};
     }
 
@@ -120,7 +111,8 @@ class Parser {
                                columns_[i + 1].coordinate == first + 1 &&
                                columns_[i + 2].coordinate == first + 2;
             if (!whole) {
-                fail(columns_[i].name, columns_[i].name, "x, y and z of a point side by side, in this order");
+                lines_.fail(columns_[i].name, columns_[i].name,
+                            "x, y and z of a point side by side, in this order");
             }
             i += 2;
         }
@@ -128,15 +120,15 @@ class Parser {
 
     void sample(const std::vector<std::string_view>& cells) {
         if (cells.size() != columns_.size()) {
-            fail("", std::to_string(cells.size()) + " cells",
-                 "as many as the header has: " + std::to_string(columns_.size()));
+            lines_.fail("", std::to_string(cells.size()) + " cells",
+                        "as many as the header has: " + std::to_string(columns_.size()));
         }
         std::vector<double>& times = result_.motion.time_s;
         if (times.size() == kMotionCsvSamples)
-            fail("", "more samples", "at most " + std::to_string(kMotionCsvSamples));
+            lines_.fail("", "more samples", "at most " + std::to_string(kMotionCsvSamples));
         const double time = number(cells[0], columns_[0]);
         if (std::isnan(time) || (!times.empty() && !(time > times.back()))) {
-            fail("time_s", cells[0], "a time above that of the sample before");
+            lines_.fail("time_s", cells[0], "a time above that of the sample before");
         }
         times.push_back(time);
         positions_.resize(positions_.size() + kCoordinates, kNaN);
@@ -146,7 +138,7 @@ class Parser {
             if (columns_[i].coordinate < 0) {
                 result_.motion.extra[columns_[i].extra].values.push_back(value);
             } else if (std::abs(value) > kFarthest_mm) {
-                fail(columns_[i].name, cells[i], "a coordinate within 1e6 mm");
+                lines_.fail(columns_[i].name, cells[i], "a coordinate within 1e6 mm");
             } else {
                 position[columns_[i].coordinate] = value;
             }
@@ -156,7 +148,7 @@ class Parser {
     double number(std::string_view cell, const Column& column) const {
         if (is_missing(cell)) return kNaN;
         const auto value = finite_number(cell);
-        if (!value) fail(column.name, cell, "a finite number with a point, nan, or nothing");
+        if (!value) lines_.fail(column.name, cell, "a finite number with a point, nan, or nothing");
         return *value;
     }
 
@@ -166,9 +158,7 @@ class Parser {
         return std::move(result_);
     }
 
-    std::string_view rest_;
-    std::string field_;
-    std::size_t line_ = 0;
+    Lines lines_;
     std::vector<Column> columns_;
     std::vector<double> positions_;  // [samples x 114]
     MotionCsv result_;
@@ -206,12 +196,10 @@ std::vector<int> written_points(const RowMatrix& positions) {
 }  // namespace
 
 MotionCsv parse_motion_csv(std::string_view text, const std::string& field) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (text.size() > kMotionCsvBytes) {
         throw InputError(field, std::to_string(text.size()) + " bytes",
                          "at most " + std::to_string(kMotionCsvBytes));
     }
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     return Parser(text, field).parse();
 }
 

@@ -85,39 +85,31 @@ std::vector<double> most_even_times(const std::vector<TimeCode>& codes) {
 
 class Parser {
   public:
-    Parser(std::string_view text, const std::string& field) : rest_(text), field_(field) {}
+    Parser(std::string_view text, const std::string& field) : lines_(text, field) {}
 
     BlendRecording parse() {
-        while (!rest_.empty()) {
-            ++line_;
-            const std::string_view line = cut_line(rest_);
-            if (trimmed(line).empty()) continue;
-            columns_.empty() ? header(cells_of(line, ',')) : row(cells_of(line, ','));
+        while (lines_.next()) {
+            if (trimmed(lines_.line()).empty()) continue;
+            const auto cells = cells_of(lines_.line(), ',');
+            columns_.empty() ? header(cells) : row(cells);
         }
-        if (codes_.empty()) fail("", "no row", "a header and at least one row");
+        if (codes_.empty()) lines_.fail("", "no row", "a header and at least one row");
         return finished();
     }
 
   private:
-    [[noreturn]] void fail(std::string_view column, std::string_view value,
-                           const std::string& allowed) const {
-        std::string where = field_ + " line " + std::to_string(line_);
-        if (!column.empty()) where += ", column " + std::string(column);
-        throw InputError(where, std::string(value), allowed);
-    }
-
     void header(const std::vector<std::string_view>& names) {
         if (names.size() < 3 || in_lower_case(names[0]) != "timecode" ||
             in_lower_case(names[1]) != "blendshapecount") {
-            fail("", names.front(), "Timecode,BlendShapeCount and the names of shapes");
+            lines_.fail("", names.front(), "Timecode,BlendShapeCount and the names of shapes");
         }
         if (names.size() > kLiveLinkColumns)
-            fail("", std::to_string(names.size()) + " columns", "at most 256");
+            lines_.fail("", std::to_string(names.size()) + " columns", "at most 256");
         std::set<std::string_view> seen;
         for (const std::string_view name : names) {
             if (name.empty() || std::any_of(name.begin(), name.end(), is_control))
-                fail(std::to_string(seen.size() + 1), name, "a name without control characters");
-            if (!seen.insert(name).second) fail(name, name, "each column once");
+                lines_.fail(std::to_string(seen.size() + 1), name, "a name without control characters");
+            if (!seen.insert(name).second) lines_.fail(name, name, "each column once");
             columns_.emplace_back(name);
         }
         values_.resize(columns_.size() - 2);
@@ -125,20 +117,21 @@ class Parser {
 
     void row(const std::vector<std::string_view>& cells) {
         const std::size_t shapes = values_.size();
-        if (codes_.size() == kLiveLinkRows) fail("", "more rows", "at most " + std::to_string(kLiveLinkRows));
+        if (codes_.size() == kLiveLinkRows)
+            lines_.fail("", "more rows", "at most " + std::to_string(kLiveLinkRows));
         const auto code = time_code(cells.front());
-        if (!code) fail(columns_[0], cells.front(), "hours:minutes:seconds:frames");
+        if (!code) lines_.fail(columns_[0], cells.front(), "hours:minutes:seconds:frames");
         const auto count = cells.size() > 1 ? finite_number(cells[1]) : std::nullopt;
         if (!count || (*count != 0 && *count != static_cast<double>(shapes))) {
-            fail(columns_[1], cells.size() > 1 ? cells[1] : "nothing",
-                 std::to_string(shapes) + ", as many as the header names, or 0");
+            lines_.fail(columns_[1], cells.size() > 1 ? cells[1] : "nothing",
+                        std::to_string(shapes) + ", as many as the header names, or 0");
         }
         if (*count != 0 && cells.size() != columns_.size()) {
-            fail("", std::to_string(cells.size()) + " cells",
-                 "as many as the header has: " + std::to_string(columns_.size()));
+            lines_.fail("", std::to_string(cells.size()) + " cells",
+                        "as many as the header has: " + std::to_string(columns_.size()));
         }
         codes_.push_back(*code);
-        lines_.push_back(line_);
+        row_lines_.push_back(lines_.number());
         for (std::size_t i = 0; i < shapes; ++i)
             values_[i].push_back(*count == 0 ? std::nan("") : number(cells[i + 2], columns_[i + 2]));
     }
@@ -147,7 +140,7 @@ class Parser {
         if (is_missing(cell)) return std::nan("");
         const auto value = finite_number(cell);
         if (!value || std::abs(*value) > BlendRecording::kLargestWeight)
-            fail(column, cell, "a number from -10 to 10, or nothing");
+            lines_.fail(column, cell, "a number from -10 to 10, or nothing");
         return *value;
     }
 
@@ -156,8 +149,8 @@ class Parser {
         recording.time_s = most_even_times(codes_);
         for (std::size_t i = 1; i < recording.time_s.size(); ++i) {
             if (recording.time_s[i] > recording.time_s[i - 1]) continue;
-            line_ = lines_[i];
-            fail(columns_[0], "a time that does not rise", "a time code above that of the row before");
+            lines_.go_to(row_lines_[i]);
+            lines_.fail(columns_[0], "a time that does not rise", "a time code above that of the row before");
         }
         std::vector<std::size_t> shapes;
         for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -176,12 +169,10 @@ class Parser {
         return recording;
     }
 
-    std::string_view rest_;
-    const std::string& field_;
-    std::size_t line_ = 0;
+    Lines lines_;
     std::vector<std::string> columns_;
     std::vector<TimeCode> codes_;
-    std::vector<std::size_t> lines_;           // of the rows
+    std::vector<std::size_t> row_lines_;       // of the rows
     std::vector<std::vector<double>> values_;  // [columns after the count], by row
 };
 
