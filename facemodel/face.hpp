@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "facemodel/mesh.hpp"
@@ -80,5 +81,8 @@ struct Face {
     Eigen::Vector3d jaw_hinge = Eigen::Vector3d::Zero();  // mm: the axis (along x) about which the jaw opens
     std::array<Surface, kMaterials> surfaces;
 };
+
+// std::invalid_argument when the face has no such part.
+const FacePart& part_named(const Face& face, std::string_view name);
 
 }  // namespace viaface

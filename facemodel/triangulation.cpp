@@ -84,6 +84,7 @@ void Triangulation::flip_while(const std::set<Edge>& kept, const Better& better)
         }
         if (!flipped) return;
     }
+    throw std::runtime_error("the flips of a triangulation come to no end");
 }
 
 int Triangulation::apex(int triangle, const Edge& edge) const {

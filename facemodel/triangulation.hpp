@@ -44,7 +44,8 @@ class Triangulation {
     // Puts an edge in. std::runtime_error when no flips do.
     void insert(int a, int b);
     void restrict_to(std::vector<Triangle> kept);
-    // Flips inner edges that are not kept while it is better; at most 60 times over all edges.
+    // Flips inner edges that are not kept while it is better. std::runtime_error when that has no end in 60
+    // times over all edges.
     void flip_while(const std::set<Edge>& kept, const Better& better);
 
     static Edge edge_of(int a, int b) { return std::minmax(a, b); }

@@ -77,7 +77,6 @@ class Bench {
         const Script script(request_.say.speech);
         Utterance said;
         const double speaking = seconds_of([&] { said = script.utterance(0); });
-        spoken_s_ = said.sound.seconds();
         sound_ = said.sound.samples;
         std::optional<Recital> recital;
         const double reciting = seconds_of([&] { recital.emplace(recite(talker_->codex, std::move(said))); });
@@ -93,7 +92,7 @@ class Bench {
     }
 
     void pose_and_draw() {
-        const BlinkSchedule blinks(spoken_s_, request_.say.seed);
+        BlinkSchedule blinks(request_.say.seed);
         std::vector<Nodes> posed;
         posed.reserve(times_.size());
         const double posing = seconds_of([&] {
@@ -169,7 +168,7 @@ class Bench {
     VideoRequest request_;
     FilmSpec spec_;
     std::shared_ptr<const Talker> talker_;
-    double spoken_s_ = 0, setting_up_ = 0;
+    double setting_up_ = 0;
     std::vector<std::int16_t> sound_;
     std::vector<double> times_;
     RowMatrix motion_;

@@ -6,7 +6,6 @@
 #include "synth/compare/compare_ema.hpp"
 #include "synth/say/recital.hpp"
 #include "synth/talker/talker_shelf.hpp"
-#include "viapoints/codex_speak.hpp"
 
 namespace viaface {
 namespace {
@@ -15,14 +14,11 @@ constexpr double kMotionRate = 200;  // Hz
 
 // The talker speaks the recording's phones at the recording's own times.
 Motion spoken(const Codex& codex, const PhoneSequence& phones) {
-    const Selection selection = select_units(codex, phones);
-    ViaPointTrack track = speak(codex, phones, selection);
-    track.points = to_points(codex.basis, track.points);
-    const MinimumJerkSpline spline(std::move(track), SplineEnd::at_rest(), SplineEnd::at_rest());
+    const Recital recital = recite(codex, {.words = {}, .phones = phones, .word_of_phone = {}, .sound = {}});
     Motion motion;
     for (int n = 0; n / kMotionRate <= phones.end_s(phones.phones.size() - 1); ++n)
         motion.time_s.push_back(n / kMotionRate);
-    motion.positions = spline.at(motion.time_s);
+    motion.positions = recital.motion.at(motion.time_s);
     return motion;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "facemodel/remesh.hpp"
-
 namespace viaface {
 namespace {
 
@@ -13,18 +11,19 @@ double smooth(double t) { return t * t * (3 - 2 * t); }
 
 }  // namespace
 
-BlinkSchedule::BlinkSchedule(double duration_s, std::uint64_t seed) {
-    Dice dice(seed);
-    for (double t = kFirst + dice.unit(); t < duration_s;
-         t += kShortest + (kLongest - kShortest) * dice.unit()) {
-        starts_.push_back(t);
+BlinkSchedule::BlinkSchedule(std::uint64_t seed) : dice_(seed), starts_{kFirst + dice_.unit()} {}
+
+std::span<const double> BlinkSchedule::starts(double until_s) {
+    while (starts_.back() <= until_s) {
+        starts_.push_back(starts_.back() + kShortest + (kLongest - kShortest) * dice_.unit());
     }
+    return {starts_.begin(), std::ranges::upper_bound(starts_, until_s)};
 }
 
-double BlinkSchedule::amount(double time_s) const {
-    const auto after = std::upper_bound(starts_.begin(), starts_.end(), time_s);
-    if (after == starts_.begin()) return 0;
-    const double since = time_s - *(after - 1);
+double BlinkSchedule::amount(double time_s) {
+    const auto begun = starts(time_s);
+    if (begun.empty()) return 0;
+    const double since = time_s - begun.back();
     if (since < kShutting) return smooth(since / kShutting);
     if (since < kShutting + kShut) return 1;
     const double opening = (since - kShutting - kShut) / kOpening;

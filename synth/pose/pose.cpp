@@ -25,13 +25,6 @@ Eigen::MatrixXd driving_points(const Eigen::MatrixXd& configurations) {
     return points;
 }
 
-const FacePart& part_named(const Face& face, const std::string& name) {
-    const auto found =
-        std::find_if(face.parts.begin(), face.parts.end(), [&](const FacePart& p) { return p.name == name; });
-    if (found == face.parts.end()) throw std::invalid_argument("the face has no part " + name);
-    return *found;
-}
-
 std::array<Vector3d, 3> tongue_points(const Configuration& c) {
     return {point_of(c, kTongueTip), point_of(c, kTongueBody), point_of(c, kTongueRear)};
 }

@@ -41,6 +41,7 @@ struct Recital {
     MinimumJerkSpline motion;
 };
 
+// Of the utterance only its phones matter.
 Recital recite(const Codex& codex, Utterance utterance);
 
 }  // namespace viaface

@@ -9,8 +9,6 @@
 namespace viaface {
 namespace {
 
-constexpr double kLongestTalk = 7200;  // s, for which blinks are drawn; the limits of a request keep below
-
 // How far drawn points are from commanded ones, over all frames so far.
 class Difference {
   public:
@@ -45,7 +43,7 @@ class Performance {
           film_(film),
           onlookers_(onlookers),
           portrait_(talker.face, request.view),
-          blinks_(kLongestTalk, request.seed) {}
+          blinks_(request.seed) {}
 
     void perform(const Recital& recital) {
         const Waveform& sound = recital.utterance.sound;

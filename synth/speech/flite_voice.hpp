@@ -4,7 +4,7 @@
 //
 // rms, slt and awb are statistical voices [Black06]: their sound moves in frames of 5 ms, and asked-for
 // durations are met by stretching each phone's states until the phones are within 1 ms. kal16 joins diphones
-// [Black00] and meets durations to the sample.
+// [Black00], made complete in flite_diphones.hpp, and meets durations to the sample.
 //
 // Threads: Flite counts references without locks, so one lock lets one utterance at a time through the whole
 // of it (at 0.01 to 0.02 of real time, so that one core speaks for some 50 films). Any thread may use any

@@ -133,11 +133,6 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
     return parts;
 }
 
-const FacePart& part_named(const Face& face, std::string_view name) {
-    return *std::find_if(face.parts.begin(), face.parts.end(),
-                         [&](const FacePart& p) { return p.name == name; });
-}
-
 void weld_parts(Face& face, const DisplayAnchors& anchors) {
     const int skin = part_named(face, "skin").first_node, back = part_named(face, "head_back").first_node,
               lips = part_named(face, "lips").first_node, mouth = part_named(face, "mouth").first_node;

@@ -66,6 +66,12 @@ TEST(Triangulation, EdgesAskedForArePutInAndTheHullStaysCovered) {
     for (const Triangle& t : mesh.triangles()) EXPECT_GT(turn(places[t[0]], places[t[1]], places[t[2]]), 0);
 }
 
+// Each edge is better than the other for ever.
+TEST(Triangulation, FlipsWithoutAnEndAreAnError) {
+    Triangulation mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    EXPECT_THROW(mesh.flip_while({}, [](int, int, int, int) { return true; }), std::runtime_error);
+}
+
 TEST(Delaunay, RefusesWhatHasNoTriangles) {
     EXPECT_THROW(delaunay(Flat::Zero(2, 2)), std::invalid_argument);
     EXPECT_THROW(delaunay(Flat::Zero(4, 2)), std::invalid_argument);
