@@ -1,6 +1,7 @@
 // Holds the table of rooms in CONTRIBUTING.md: who may include whom, and which room each vendor lives in.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -73,6 +74,23 @@ TEST(Rooms, IncludeOnlyWhomTheyMay) {
         }
     }
     EXPECT_GT(checked, 50u);
+}
+
+bool holds_sources(const fs::path& folder) {
+    const auto found = fs::recursive_directory_iterator(folder);
+    return std::any_of(begin(found), end(found), [](const fs::directory_entry& entry) {
+        return entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp";
+    });
+}
+
+TEST(Rooms, EveryFolderOfSourcesIsInTheTable) {
+    const Names others = {"build", "fuzz", "tests",
+                          "web"};  // made, or may include all; a file without includes
+    for (const auto& entry : fs::directory_iterator(VIAFACE_SOURCE_DIR)) {
+        const std::string name = entry.path().filename().string();
+        if (!entry.is_directory() || name.front() == '.' || others.contains(name)) continue;
+        EXPECT_TRUE(kMayInclude.contains(name) || !holds_sources(entry.path())) << name;
+    }
 }
 
 TEST(Rooms, VendorsStayInTheirRooms) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "tests/viapoints/recited.hpp"
 #include "viapoints/codex_speak.hpp"
 
@@ -282,21 +280,6 @@ TEST(CodexSpeak, ASentenceOfSilenceIsRest) {
     ASSERT_GE(track.time_s.size(), 2u);
     EXPECT_EQ(track.time_s.back(), 0.5);
     EXPECT_EQ(track.points.cwiseAbs().maxCoeff(), 0);
-}
-
-TEST(CodexSpeak, ThreadsSayTheSame) {
-    const Codex codex = codex_of(20);
-    const PhoneSequence phones = random_sentence(1001, 40);
-    std::vector<ViaPointTrack> tracks(8);
-    std::vector<std::thread> threads;
-    for (ViaPointTrack& track : tracks) {
-        threads.emplace_back([&] { track = speak(codex, phones, select_units(codex, phones)); });
-    }
-    for (std::thread& thread : threads) thread.join();
-    for (const ViaPointTrack& track : tracks) {
-        EXPECT_EQ(track.time_s, tracks[0].time_s);
-        EXPECT_EQ(track.points, tracks[0].points);
-    }
 }
 
 }  // namespace

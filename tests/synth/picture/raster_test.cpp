@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,43 +9,19 @@
 #include "simple_faces.hpp"
 #include "synth/picture/portrait.hpp"
 #include "synth/picture/raster_textures.hpp"
-#include "synth/picture/stripe_pool.hpp"
 
 namespace viaface {
 namespace {
 
 using testing::bytes;
+using testing::painted_balls;
 using testing::two_balls;
 using testing::wandering;
+using testing::waves;
 
 const View kViews[] = {{.width = 201, .height = 150, .yaw = 20},
                        {.width = 96, .height = 260, .tilt = 15, .background = Rgb{0, 177, 64}},
                        {.width = 333, .height = 333, .roll = 30}};
-
-Texture waves(int side, int channels, double low, double high) {
-    Texture texture{side, side, channels, {}};
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            for (int c = 0; c < channels; ++c) {
-                const double wave = std::sin(0.5 * x * (c + 1)) * std::cos(0.4 * y + c);
-                texture.pixels.push_back(static_cast<std::uint8_t>(low + (high - low) * (0.5 + 0.5 * wave)));
-            }
-        }
-    }
-    return texture;
-}
-
-// The balls with colours, roughness and bumps all over, repeated sideways.
-Face painted_balls() {
-    Face face = two_balls();
-    face.uvs.col(0) = (face.rest.col(0).array() / 90 + 0.3).cast<float>();
-    face.uvs.col(1) = (face.rest.col(1).array() / 300 + 0.4).cast<float>();
-    for (Surface& surface : face.surfaces) {
-        surface = {waves(64, 3, 60, 240), waves(32, 3, 100, 255), waves(64, 3, 100, 156)};
-    }
-    face.surfaces[static_cast<int>(Material::kLash)].base_colour = waves(64, 4, 0, 255);
-    return face;
-}
 
 double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     double squares = 0;
@@ -63,14 +38,6 @@ TEST(Raster, EveryInstructionSetGivesTheSameBytes) {
     for (const View& view : kViews) {
         EXPECT_EQ(drawn(face, view, {.instructions = Instructions::kBest}),
                   drawn(face, view, {.instructions = Instructions::kBaseline}));
-    }
-}
-
-TEST(Raster, AnyNumberOfThreadsGivesTheSameBytes) {
-    const Face face = painted_balls();
-    for (const View& view : kViews) {
-        const auto alone = drawn(face, view, {.threads = 1});
-        for (const int threads : {2, 4}) EXPECT_EQ(drawn(face, view, {.threads = threads}), alone);
     }
 }
 
@@ -134,17 +101,6 @@ TEST(RasterTextures, TheBorderRepeatsSideways) {
         const std::uint8_t* row = level.border + y * level.stride;
         EXPECT_TRUE(std::equal(row, row + 8, row + 16 * 8)) << y;
         EXPECT_TRUE(std::equal(row + 17 * 8, row + 18 * 8, row + 8)) << y;
-    }
-}
-
-TEST(StripePool, DoesEveryItemOnce) {
-    for (const int threads : {1, 2, 5}) {
-        StripePool pool(threads);
-        for (const int items : {0, 1, 3, 100}) {
-            std::vector<std::atomic<int>> done(items);
-            pool.share(items, [&](int item, int) { ++done[item]; });
-            for (const auto& times : done) EXPECT_EQ(times, 1);
-        }
     }
 }
 

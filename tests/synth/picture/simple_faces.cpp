@@ -53,6 +53,30 @@ Face two_balls() {
     return face;
 }
 
+Texture waves(int side, int channels, double low, double high) {
+    Texture texture{side, side, channels, {}};
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            for (int c = 0; c < channels; ++c) {
+                const double wave = std::sin(0.5 * x * (c + 1)) * std::cos(0.4 * y + c);
+                texture.pixels.push_back(static_cast<std::uint8_t>(low + (high - low) * (0.5 + 0.5 * wave)));
+            }
+        }
+    }
+    return texture;
+}
+
+Face painted_balls() {
+    Face face = two_balls();
+    face.uvs.col(0) = (face.rest.col(0).array() / 90 + 0.3).cast<float>();
+    face.uvs.col(1) = (face.rest.col(1).array() / 300 + 0.4).cast<float>();
+    for (Surface& surface : face.surfaces) {
+        surface = {waves(64, 3, 60, 240), waves(32, 3, 100, 255), waves(64, 3, 100, 156)};
+    }
+    face.surfaces[static_cast<int>(Material::kLash)].base_colour = waves(64, 4, 0, 255);
+    return face;
+}
+
 Nodes wandering(const Face& face, int step) {
     Nodes posed = face.rest;
     const FacePart& tongue = face.parts[1];

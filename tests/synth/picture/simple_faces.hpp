@@ -22,6 +22,12 @@ void add_ball(Face& face, Material material, double radius, const Eigen::Vector3
 // A large ball of skin with three small ones before it: tongue, eye and lash.
 Face two_balls();
 
+// Waves of another length in each channel, from `low` to `high`.
+Texture waves(int side, int channels, double low, double high);
+
+// The balls with colours, roughness and bumps all over, repeated sideways.
+Face painted_balls();
+
 // The small balls wander, now and then one stands still.
 Nodes wandering(const Face& face, int step);
 

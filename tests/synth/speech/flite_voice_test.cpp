@@ -5,27 +5,17 @@
 #include <clocale>
 #include <cmath>
 #include <numeric>
-#include <thread>
 
 #include "base/error.hpp"
 #include "synth/speech/spoken_phones.hpp"
 #include "synth/speech/text.hpp"
+#include "tests/synth/speech/said.hpp"
 
 namespace viaface {
 namespace {
 
-const char* const kSentences[] = {"Once upon a time there was an old man and an old woman.",
-                                  "Peter Piper picked a peck of pickled peppers, didn't he?",
-                                  "It cost $3.50 in 1984!"};
-
-bool same(const Utterance& a, const Utterance& b) {
-    if (a.sound.samples != b.sound.samples || a.words.size() != b.words.size()) return false;
-    return std::equal(a.phones.phones.begin(), a.phones.phones.end(), b.phones.phones.begin(),
-                      b.phones.phones.end(), [](const TimedPhone& p, const TimedPhone& q) {
-                          return p.phone == q.phone && p.stress == q.stress && p.begin == q.begin &&
-                                 p.end == q.end;
-                      });
-}
+using test::kSentences;
+using test::same;
 
 double loudness(const Utterance& said, std::int64_t begin, std::int64_t end) {
     double sum = 0;
@@ -148,26 +138,6 @@ TEST_P(Voices, PitchScalesTheFundamental) {
     EXPECT_GT(own, 60);
     EXPECT_LT(own, 300);
     EXPECT_NEAR(pitch(voice.speak_phones(vowel, {1, 1.4})) / own, 1.4, 0.1);
-}
-
-TEST(FliteVoice, FourThreadsGiveTheBytesOfOne) {
-    const auto names = FliteVoice::names();
-    std::vector<Utterance> alone;
-    for (const std::string& name : names) {
-        for (const char* sentence : kSentences) alone.push_back(FliteVoice(name).speak(sentence));
-    }
-    std::vector<int> different(4, 0);
-    std::vector<std::thread> threads;
-    for (std::size_t t = 0; t < different.size(); ++t) {
-        threads.emplace_back([&, t] {
-            for (std::size_t k = 0; k < 2 * alone.size(); ++k) {
-                const std::size_t i = (k + 3 * t) % alone.size();
-                different[t] += !same(FliteVoice(names[i / 3]).speak(kSentences[i % 3]), alone[i]);
-            }
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
-    EXPECT_EQ(different, std::vector<int>(4, 0));
 }
 
 TEST(FliteVoice, WrongRequestsNameTheirField) {
