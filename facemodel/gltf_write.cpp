@@ -32,11 +32,19 @@ Nodes normals_of(const Face& face) {
     return result;
 }
 
+// An array of one. Braces around one value are an array to one compiler and the value to another.
+json only(json value) {
+    json array = json::array();
+    array.push_back(std::move(value));
+    return array;
+}
+
 class Writer {
   public:
     explicit Writer(const Face& face) : face_(face), normals_(normals_of(face)) {
-        json_ = {{"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
-        json_["nodes"] = {{{"name", "head"}, {"scale", {0.001, 0.001, 0.001}}, {"children", json::array()}}};
+        json_ = {{"scene", 0}, {"scenes", only({{"nodes", only(0)}})}};
+        json_["nodes"] =
+            only({{"name", "head"}, {"scale", {0.001, 0.001, 0.001}}, {"children", json::array()}});
         for (const char* list : {"meshes", "accessors", "bufferViews", "materials"})
             json_[list] = json::array();
     }
@@ -48,7 +56,7 @@ class Writer {
                           {"generator", "viaface"},
                           {"copyright", copyright},
                           {"extras", {{"viaface", extras()}}}};
-        json_["buffers"] = {{{"byteLength", bin_.size()}}};
+        json_["buffers"] = only({{"byteLength", bin_.size()}});
         return packed();
     }
 
@@ -144,7 +152,7 @@ class Writer {
             {"extras",
              {{"targetNames", names}, {"drive", gltf::kDriveNames[static_cast<std::size_t>(part.drive)]}}}};
         if (!names.empty()) mesh["weights"] = std::vector<double>(names.size(), 0.0);
-        mesh["primitives"] = {std::move(primitive)};
+        mesh["primitives"] = only(std::move(primitive));
         json_["meshes"].push_back(std::move(mesh));
         json_["nodes"].push_back({{"name", part.name}, {"mesh", json_["meshes"].size() - 1}});
         json_["nodes"][0]["children"].push_back(json_["nodes"].size() - 1);
