@@ -19,6 +19,9 @@ void require_valid(const Motion& motion, const AnalysisOptions& options) {
     if (!(options.max_error_mm >= 1e-6 && options.max_error_mm <= 1000)) {
         throw InputError("max_error_mm", std::to_string(options.max_error_mm), "1e-6 to 1000");
     }
+    if (!(options.max_gap_ratio >= 2 && options.max_gap_ratio <= 1000)) {
+        throw InputError("max_gap_ratio", std::to_string(options.max_gap_ratio), "2 to 1000");
+    }
     if (motion.size() < 2)
         throw InputError("motion", std::to_string(motion.size()) + " samples", "two or more");
     if (motion.positions.rows() != static_cast<Index>(motion.size())) {
@@ -33,24 +36,43 @@ void require_valid(const Motion& motion, const AnalysisOptions& options) {
     }
 }
 
-// The track is checked by what its reader will do with it: the spline through it, at every sample.
-Analysis extracted(const AnalysisTarget& target, double max_error_mm) {
-    const double limit = max_error_mm - kRounding_mm;
-    KnotLine line(target);
-    line.insert_until_within(limit);
-    line.settle();
-    line.take_out_what_is_spare(limit);
-    line.settle();
-    while (line.largest_error_mm() > limit) {
-        line.insert_until_within(limit);
-        line.settle();
+constexpr int kShiftRounds = 2;
+
+// The straight line from the first sample to the last.
+ViaPointTrack straight(const AnalysisTarget& target) {
+    const Index last = target.values.rows() - 1;
+    ViaPointTrack track{{target.time_s.front(), target.time_s.back()}, RowMatrix(2, target.values.cols())};
+    track.points << target.values.row(0), target.values.row(last);
+    return track;
+}
+
+double worst(const AnalysisTarget& target, const ViaPointTrack& track) {
+    return longest_triple(target.differences(recover(track, target.time_s)));
+}
+
+Analysis thinned(const AnalysisTarget& target, double limit_mm, double max_gap_ratio) {
+    KnotLine line(target, limit_mm, max_gap_ratio);
+    line.fill();
+    while (line.thin() > 0) {
     }
-    Analysis analysis{.track = line.track(), .evaluations = line.evaluations()};
-    const RowMatrix differences = target.differences(0, recover(analysis.track, target.time_s));
+    for (int round = 0; round < kShiftRounds; ++round) {
+        line.shift();
+        line.thin();
+    }
+    return {.track = line.track(), .evaluations = line.evaluations()};
+}
+
+// The track is checked by what its reader will do with it: the spline through it, at every sample.
+Analysis extracted(const AnalysisTarget& target, const AnalysisOptions& options) {
+    const double limit = options.max_error_mm - kRounding_mm;
+    Analysis analysis{.track = straight(target), .evaluations = target.time_s.size()};
+    if (target.time_s.size() > 2 && worst(target, analysis.track) > limit)
+        analysis = thinned(target, limit, options.max_gap_ratio);
+    const RowMatrix differences = target.differences(recover(analysis.track, target.time_s));
     analysis.max_error_mm = longest_triple(differences);
     analysis.rms_error_mm =
         std::sqrt(3 * differences.squaredNorm() / static_cast<double>(differences.size()));
-    if (analysis.max_error_mm > max_error_mm)
+    if (analysis.max_error_mm > options.max_error_mm)
         throw std::runtime_error("via-point analysis exceeds its own bound");
     return analysis;
 }
@@ -60,8 +82,7 @@ Analysis extracted(const AnalysisTarget& target, double max_error_mm) {
 Analysis analyse_in_full(const Motion& motion, const AnalysisOptions& options) {
     require_valid(motion, options);
     const std::vector<int> points = measured_points(motion.positions, "motion");
-    Analysis analysis =
-        extracted({motion.time_s, coordinates_of(motion.positions, points)}, options.max_error_mm);
+    Analysis analysis = extracted({motion.time_s, coordinates_of(motion.positions, points)}, options);
     RowMatrix& packed = analysis.track.points;
     RowMatrix all =
         RowMatrix::Constant(packed.rows(), kCoordinates, std::numeric_limits<double>::quiet_NaN());
@@ -84,7 +105,7 @@ Analysis analyse_in_full(const Motion& motion, const ConfigurationBasis& basis,
         throw InputError("max_error_mm", std::to_string(options.max_error_mm),
                          "more than " + std::to_string(own) + ", the error of the basis alone");
     }
-    return extracted(target, options.max_error_mm);
+    return extracted(target, options);
 }
 
 ViaPointTrack analyse(const Motion& motion, const AnalysisOptions& options) {

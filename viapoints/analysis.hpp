@@ -5,12 +5,12 @@
 //
 // Departure: inserting where the error is largest and solving the whole spline again is quadratic in length,
 // and follows noise. Here
-// 1. the spline is solved again eight via points to either side only (an insertion's effect falls to 0.431
-//    per via point);
-// 2. each via point is then taken out that can be spared, its neighbours moved to a least-squares fit that is
-//    weighted more and more towards the worst samples [Lawson61];
-// 3. the whole spline is solved and checked at every sample, and what that check finds is inserted again.
-// Work is linear in the number of samples.
+// 1. gaps are halved until least squares over all via times stays within the bound;
+// 2. via points go, the least important first, where a stretch of the spline can be fitted without them
+//    (strand_fit.hpp): each point by itself, weighted more and more towards its worst samples [Lawson61];
+// 3. via times shift by a sample where that relieves the worst samples, and what can be spared then goes too.
+// Work is linear in the number of samples. Neighbouring gaps differ by a limited ratio: freely placed via
+// points overshoot, and magnify noise.
 #pragma once
 
 #include "viapoints/basis.hpp"
@@ -20,6 +20,7 @@ namespace viaface {
 
 struct AnalysisOptions {
     double max_error_mm = 0.5;  // 1e-6 to 1000
+    double max_gap_ratio = 4;   // of neighbouring gaps between via times, 2 to 1000; samples may impose more
 };
 
 struct Analysis {

@@ -1,12 +1,11 @@
-// The working state of via-point analysis: a line of knots over a sampled target, with the spline's
-// derivatives at each knot and the largest error in each segment kept up to date as knots come and go.
+// The working state of via-point analysis: a line of knots over a sampled target, and the control points of
+// the minimum-jerk spline over them, which keeps every sample within the limit from the first fill on. Knots
+// are put in, taken out and shifted while that holds; each change concerns a stretch of some twenty knots.
 #pragma once
 
-#include <Eigen/Core>
-#include <queue>
 #include <vector>
 
-#include "viapoints/spline.hpp"
+#include "viapoints/strand_fit.hpp"
 #include "viapoints/track.hpp"
 
 namespace viaface {
@@ -14,80 +13,80 @@ namespace viaface {
 // What the spline is held against. Points are coordinates = offset + modes * values; without modes the values
 // are the coordinates themselves.
 struct AnalysisTarget {
-    std::vector<double> time_s;  // strictly rising, two or more
-    RowMatrix values;            // [samples x dimensions] that the spline interpolates
+    std::vector<double> time_s;  // strictly rising, three or more
+    RowMatrix values;            // [samples x dimensions] that the spline follows
     RowMatrix modes = {};        // [dimensions x 3 * points]; empty for coordinates
     RowMatrix residual =
         {};  // [samples x 3 * points], mm: what the modes do not reach; empty for coordinates
 
-    // Of rows recovered from sample `first` on: the points' differences [rows x 3 * points], mm, target less
-    // recovered.
-    RowMatrix differences(std::size_t first, const RowMatrix& recovered) const;
+    // Of all samples as recovered: the points' differences [samples x 3 * points], mm, target less recovered.
+    RowMatrix differences(const RowMatrix& recovered) const;
 };
 
 class KnotLine {
   public:
-    // Knots at the ends and at every 64th sample, so that no segment is longer and each change costs bounded
-    // work.
-    explicit KnotLine(const AnalysisTarget& target);
+    KnotLine(const AnalysisTarget& target, double limit_mm, double max_gap_ratio);
 
-    void insert_until_within(double limit_mm);
-    void take_out_what_is_spare(double limit_mm);
-    void settle();  // solves the whole spline and evaluates every segment
+    void fill();          // knots enough for plain least squares to stay within the limit
+    std::size_t thin();   // takes out what can be spared; how many went
+    std::size_t shift();  // moves knots by a sample where that relieves the worst samples; how many moved
 
-    double largest_error_mm() const;
     ViaPointTrack track() const;
     std::size_t evaluations() const { return evaluations_; }
 
   private:
     static constexpr int kNone = -1;
     struct Knot {
-        std::size_t sample;
+        std::size_t sample = 0;
         int before = kNone, after = kNone;
-        Eigen::RowVectorXd point = {}, velocity = {}, acceleration = {};
-        double error = 0;  // largest distance in the segment from this knot to the next, both included, mm
-        std::size_t worst = 0;  // the sample that has it
         bool alive = true;
+        bool open = true;  // something near has changed since it was last tried
     };
-    struct Worst {
-        double error;
-        std::size_t sample;
-        int knot;
-        bool operator<(const Worst& o) const {
-            return error != o.error ? error < o.error : sample > o.sample;
-        }
-    };
-    struct Window {  // knots in order, with the points and derivatives that they would have
-        std::vector<int> knots;
-        RowMatrix points;  // [knots x dimensions]
-        MinimumJerkSystem::Derivatives solution;
-    };
-    struct SegmentError {
-        double error = 0;
-        std::size_t worst = 0;
+    enum class Aim { kWithin, kRelief };
+    struct Stretch {           // knots in a row; those strictly between `left` and `right` are to change
+        std::vector<int> ids;  // kNone for new ones
+        std::vector<std::size_t> samples;
+        std::vector<double> times;
+        int left = 0, right = 0;
+        bool first_is_end = false, last_is_end = false;
+        FitStretch fit;
     };
 
     Knot& knot(int id) { return knots_[static_cast<std::size_t>(id)]; }
     const Knot& knot(int id) const { return knots_[static_cast<std::size_t>(id)]; }
-    MinimumJerkSystem system(const Window& window) const;
+    double time(int id) const { return target_.time_s[knot(id).sample]; }
+    bool inner(int id) const { return knot(id).before != kNone && knot(id).after != kNone; }
+    int before(int id, int count) const;
+    int after(int id, int count) const;
     std::vector<int> all() const;
-    std::vector<int> around(int id, bool without_it) const;
-    Window gathered(std::vector<int> ids) const;
-    void solve(Window& window) const;
-    Window unit_responses(const Window& window, Eigen::Index first, Eigen::Index count) const;
-    RowMatrix sampled(const Window& window, std::size_t segment) const;
-    RowMatrix sampled(const Window& window) const;
-    SegmentError segment_error(const Window& window, std::size_t segment);
-    bool within(const Window& window, double limit_mm);
-    bool refit(Window& window, std::size_t middle, double limit_mm);
-    void adopt(const Window& window);
-    void insert_at(int segment_begin);
-    double error_without(int id);
-    bool take_out(int id, double limit_mm);
+
+    std::vector<std::size_t> evenly() const;
+    std::vector<std::size_t> split(const std::vector<std::size_t>& samples) const;
+    std::vector<std::size_t> graded(std::vector<std::size_t> samples) const;
+    void set_line(const std::vector<std::size_t>& samples);
+
+    void gather(int left, int right, const std::vector<std::size_t>& between);
+    bool gaps_allowed(int left, int right) const;
+    void find_rows();
+    double strain(std::size_t strand) const;
+    bool fits(Aim aim);
+    bool replace(int left, int right, const std::vector<std::size_t>& between, Aim aim = Aim::kWithin);
+    void relink(int left, int right, const std::vector<std::size_t>& between);
+    void adopt();
+    double importance(int id) const;
+    bool take_out(int id);
+    bool spread_out(int id, int reach);
 
     const AnalysisTarget& target_;
-    std::vector<Knot> knots_;  // the first is the line's first; linked in order by before and after
-    std::priority_queue<Worst> worst_;
+    double limit_mm2_, max_gap_ratio_;
+    PointMeasure measure_;
+    std::vector<Strand> strands_;
+    std::vector<std::size_t> order_;  // of strands: what last made a change fail is tried first
+    std::vector<Knot> knots_;         // the first is the line's first; linked in order by before and after
+    std::vector<std::vector<Quad>> controls_;  // [strands][knots x quads]
+    Stretch stretch_;
+    std::vector<StrandFit> fits_;          // [strands]
+    std::vector<std::vector<Quad>> held_;  // [strands][knots of the stretch x quads]
     std::size_t evaluations_ = 0;
 };
 
