@@ -39,9 +39,9 @@ constexpr std::array<std::uint32_t, 256> make_crc_table() {
 
 }  // namespace
 
-std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
+std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t so_far) {
     static constexpr auto kTable = make_crc_table();
-    std::uint32_t crc = 0xffffffffu;
+    std::uint32_t crc = so_far ^ 0xffffffffu;
     for (const std::uint8_t byte : bytes) crc = kTable[(crc ^ byte) & 0xff] ^ (crc >> 8);
     return crc ^ 0xffffffffu;
 }

@@ -51,8 +51,8 @@ class ByteReader {
     std::size_t offset_ = 0;
 };
 
-// CRC-32 of ISO 3309 (zlib's, PNG's).
-std::uint32_t crc32(std::span<const std::uint8_t> bytes);
+// CRC-32 of ISO 3309 (zlib's, PNG's). Chain calls by passing the last result on.
+std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t so_far = 0);
 
 // FNV-1a, 64 bits: names a result in reports; not for security. Chain calls by passing the last result on.
 inline constexpr std::uint64_t kFnvStart = 14695981039346656037ull;

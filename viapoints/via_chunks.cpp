@@ -12,7 +12,9 @@ constexpr std::string_view kEnd = "ENDS";
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("via bytes: " + what); }
 
-void read_header(ByteReader& reader, std::span<const std::uint8_t> bytes, ViaKind kind) {
+}  // namespace
+
+void read_via_header(ByteReader& reader, std::span<const std::uint8_t> bytes, ViaKind kind) {
     const auto magic = reader.take(kMagic.size());
     if (!std::equal(magic.begin(), magic.end(), kMagic.begin()))
         refuse("not a .via file: its first 8 bytes are others");
@@ -25,7 +27,7 @@ void read_header(ByteReader& reader, std::span<const std::uint8_t> bytes, ViaKin
         refuse("kind " + std::to_string(found) + ", wanted " + std::to_string(static_cast<int>(kind)));
 }
 
-ViaChunk read_chunk(ByteReader& reader, std::span<const std::uint8_t> bytes) {
+ViaChunk read_via_chunk(ByteReader& reader, std::span<const std::uint8_t> bytes) {
     const std::size_t begin = reader.offset();
     const auto name = reader.take(4);
     if (!std::all_of(name.begin(), name.end(), [](std::uint8_t c) { return c < 0x80 && std::isalpha(c); })) {
@@ -44,8 +46,6 @@ ViaChunk read_chunk(ByteReader& reader, std::span<const std::uint8_t> bytes) {
         refuse(where + ": its checksum does not fit");
     return {type, content, offset};
 }
-
-}  // namespace
 
 ViaChunkWriter::ViaChunkWriter(ViaKind kind) {
     writer_.put_bytes(kMagic);
@@ -71,10 +71,10 @@ Bytes ViaChunkWriter::finish() {
 
 std::vector<ViaChunk> read_chunks(std::span<const std::uint8_t> bytes, ViaKind kind) {
     ByteReader reader(bytes);
-    read_header(reader, bytes, kind);
+    read_via_header(reader, bytes, kind);
     std::vector<ViaChunk> chunks;
     for (;;) {
-        const ViaChunk chunk = read_chunk(reader, bytes);
+        const ViaChunk chunk = read_via_chunk(reader, bytes);
         if (chunk.type == kEnd) {
             if (!chunk.content.empty()) refuse("chunk ENDS has a content");
             if (reader.left() > 0)

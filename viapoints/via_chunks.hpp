@@ -11,7 +11,7 @@ namespace viaface {
 inline constexpr std::uint16_t kViaVersion = 1;
 inline constexpr std::uint32_t kLongestViaChunk = 1u << 28;
 
-enum class ViaKind : std::uint16_t { kCodex = 1 };
+enum class ViaKind : std::uint16_t { kCodex = 1, kStream = 2, kStreamModel = 3 };
 
 struct ViaChunk {
     std::string_view type;  // four letters; views into the bytes that were read
@@ -25,11 +25,16 @@ class ViaChunkWriter {
   public:
     explicit ViaChunkWriter(ViaKind kind);
     void add(std::string_view type, std::span<const std::uint8_t> content);
-    Bytes finish();  // adds the end
+    Bytes finish();                                         // adds the end
+    const Bytes& bytes() const { return writer_.bytes(); }  // what was added so far
 
   private:
     ByteWriter writer_;
 };
+
+// The header and the chunks one by one; each throws as read_chunks does.
+void read_via_header(ByteReader& reader, std::span<const std::uint8_t> bytes, ViaKind kind);
+ViaChunk read_via_chunk(ByteReader& reader, std::span<const std::uint8_t> bytes);
 
 // Every chunk but the end. Throws std::runtime_error that names the chunk and the byte for whatever is not as
 // FORMAT.md has it.

@@ -1,0 +1,32 @@
+// A basis as streams hold it: means in single precision, modes in 1/32767, so that both ends draw with the
+// same numbers.
+#pragma once
+
+#include "base/bytes.hpp"
+#include "viapoints/basis.hpp"
+
+namespace viaface {
+
+inline constexpr int kMostStreamComponents = 114;
+
+// The basis rounded to what a stream holds; its modes are orthonormal to 1e-4 only.
+ConfigurationBasis stored_basis(const ConfigurationBasis& basis);
+
+void put_point_set(ByteWriter& writer, const std::vector<int>& points);
+std::vector<int> take_point_set(ByteReader& reader);  // rising layout indices; std::runtime_error when empty
+void put_mean(ByteWriter& writer, const ConfigurationBasis& basis);
+Configuration take_mean(ByteReader& reader);
+void put_modes(ByteWriter& writer, const ConfigurationBasis& basis,
+               Eigen::Index from);                                               // mode `from` and later
+Eigen::MatrixXd take_modes(ByteReader& reader, const std::vector<int>& points);  // [114 x k]
+
+// Components of configurations by least squares over `points`, of which modes need not be orthonormal.
+RowMatrix fitted_components(const ConfigurationBasis& basis, const std::vector<int>& points,
+                            const RowMatrix& positions);
+
+// The basis followed by as many more modes of what it leaves of `positions` as bring the largest error at
+// `points` to max_error_mm or below, all as stored. Leading modes that are not needed are kept.
+ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::vector<int>& points,
+                                  const RowMatrix& positions, double max_error_mm);
+
+}  // namespace viaface

@@ -1,0 +1,160 @@
+#include "viapoints/stream_segment.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "viapoints/measured.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Index;
+
+constexpr int kFirstGap = 3;          // ticks between the via points that a search starts from
+constexpr double kSearchedRate = 60;  // samples per second that a search looks at first
+constexpr double kRestingSpeed = 30;  // bounds per second: what moves slower at an end may rest there
+constexpr int kMostNarrower = 3;      // times that the bound is drawn in for samples in between
+
+Eigen::MatrixXd packed_modes(const StreamTools& tools) {
+    return coordinates_of(tools.basis.modes.transpose(), tools.head.points).transpose();
+}
+
+std::vector<int> even_ticks(std::uint32_t length, bool first_moves, bool last_moves) {
+    std::vector<int> ticks(first_moves ? 2 : 0);
+    for (std::uint32_t t = 0; t < length; t += kFirstGap) ticks.push_back(static_cast<int>(t));
+    ticks.insert(ticks.end(), last_moves ? 3 : 1, static_cast<int>(length));
+    return ticks;
+}
+
+std::size_t stride_of(const Motion& motion, const CutSegment& cut) {
+    if (cut.samples < 2) return 1;
+    const double seconds =
+        motion.time_s[cut.first_sample + cut.samples - 1] - motion.time_s[cut.first_sample];
+    return static_cast<std::size_t>(
+        std::max(1.0, std::floor(static_cast<double>(cut.samples - 1) / (seconds * kSearchedRate))));
+}
+
+bool divisible(const ViaValues& values, int by) {
+    return std::all_of(values.begin(), values.end(), [by](std::int32_t v) { return v % by == 0; });
+}
+
+}  // namespace
+
+double step_of(const StreamHead& head, int finer) { return std::ldexp(head.step_mm, -finer); }
+
+int length_bits(std::uint32_t longest_segment) { return static_cast<int>(std::bit_width(longest_segment)); }
+
+Bytes segment_content(const StreamTools& tools, const SegmentVia& segment) {
+    RangeEncoder encoder;
+    encoder.even(static_cast<std::uint32_t>(segment.finer), kFinerBits);
+    encoder.even(moves_first(segment.via.tick), 1);
+    encoder.even(moves_last(segment.via.tick), 1);
+    encoder.even(static_cast<std::uint32_t>(segment.via.length()), length_bits(tools.head.longest_segment));
+    ViaCoder<RangeEncoder> coder(encoder, tools.statistics);
+    code_segment(coder, segment.via);
+    return encoder.finish();
+}
+
+SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> content) {
+    RangeDecoder decoder(content);
+    SegmentVia segment;
+    segment.finer = static_cast<int>(decoder.even(0, kFinerBits));
+    const std::size_t at_first = decoder.even(0, 1) != 0 ? 3 : 1, at_last = decoder.even(0, 1) != 0 ? 3 : 1;
+    const auto length = static_cast<int>(decoder.even(0, length_bits(tools.head.longest_segment)));
+    if (length < 1 || length > static_cast<int>(tools.head.longest_segment))
+        throw std::runtime_error("a segment of " + std::to_string(length) + " ticks");
+    ViaCoder<RangeDecoder> coder(decoder, tools.statistics);
+    QuantisedSegment& via = segment.via;
+    const ViaValues zeros(static_cast<std::size_t>(tools.basis.size()));
+    for (std::size_t ends = 0; ends < at_last;) {
+        int ticks = 0;
+        if (via.tick.size() >= at_first && ends == 0)
+            ticks = coder.gap(0, std::min(kMostGapTicks, length - via.tick.back()));
+        const int gap = via.tick.empty() ? kStartClass : gap_class(ticks);
+        via.tick.push_back(via.tick.empty() ? 0 : via.tick.back() + ticks);
+        via.values.push_back(zeros);
+        ViaValues values = zeros;
+        coder.values(values, past_of(via.values, via.values.size() - 1, zeros), gap);
+        if (std::any_of(values.begin(), values.end(),
+                        [](std::int32_t v) { return std::abs(v) > kLargestValue; }))
+            throw std::runtime_error("a value out of range");
+        via.values.back() = std::move(values);
+        ends += via.tick.back() == length;
+    }
+    return segment;
+}
+
+SegmentError segment_error(const StreamTools& tools, const SegmentVia& segment, const Motion& motion,
+                           const CutSegment& cut) {
+    const SegmentTarget target =
+        target_of(motion, tools.head.points, tools.basis.mean, cut, tools.head.ticks_per_s, 1);
+    if (target.tick.empty()) return {};
+    const RowMatrix off = components_at(segment.via, step_of(tools.head, segment.finer), target.tick) *
+                              packed_modes(tools).transpose() -
+                          target.points;
+    return {longest_triple(off), off.squaredNorm()};
+}
+
+ViaValues SegmentEncoder::first_values(int finer) const {
+    if (!started_) return {};
+    ViaValues values = last_.via.values.back();
+    for (std::int32_t& v : values)
+        v = finer >= last_.finer ? v * (1 << (finer - last_.finer)) : v / (1 << (last_.finer - finer));
+    return values;
+}
+
+SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const {
+    SegmentVia found{{}, finer};
+    SearchOptions options{tools_.head.bound_mm, step_of(tools_.head, finer), rounds_};
+    std::vector<int> ticks = even_ticks(cut.last_tick - cut.first_tick, ends.first_moves, ends.last_moves);
+    std::size_t stride = stride_of(motion, cut);
+    for (int tries = 0;; ++tries) {
+        const SegmentTarget target =
+            target_of(motion, tools_.head.points, tools_.basis.mean, cut, tools_.head.ticks_per_s, stride);
+        found.via = search_segment(target, packed_modes(tools_), tools_.statistics, ticks,
+                                   first_values(finer), options);
+        if (stride == 1 || segment_error(tools_, found, motion, cut).largest_mm <= tools_.head.bound_mm)
+            return found;
+        options.bound_mm *= 0.97;
+        if (tries == kMostNarrower) {
+            options.bound_mm = tools_.head.bound_mm;
+            stride = 1;
+        }
+    }
+}
+
+int SegmentEncoder::coarsest() const {
+    if (!started_) return 0;
+    int finer = last_.finer;
+    while (finer > 0 && divisible(last_.via.values.back(), 1 << (last_.finer - finer + 1))) --finer;
+    return finer;
+}
+
+SegmentVia SegmentEncoder::encode(const Motion& motion, const CutSegment& cut) {
+    const auto moves = [&](double speed) { return speed > kRestingSpeed * tools_.head.bound_mm; };
+    const Ends planned{started_ ? moves_last(last_.via.tick) : moves(cut.first_speed), moves(cut.last_speed)};
+    const int first = coarsest();
+    double least = std::numeric_limits<double>::infinity();
+    const auto holds = [&](int finer, Ends ends, SegmentVia& found) {
+        found = searched(motion, cut, finer, ends);
+        const double error =
+            segment_error(tools_, segment_in(tools_, segment_content(tools_, found)), motion, cut).largest_mm;
+        least = std::min(least, error);
+        return error <= tools_.head.bound_mm;
+    };
+    SegmentVia found;
+    bool held = holds(first, planned, found);
+    for (int finer = first; !held && finer <= kMostFiner; ++finer) held = holds(finer, {true, true}, found);
+    if (!held)
+        throw InputError("max_error_mm", std::to_string(tools_.head.bound_mm),
+                         "what " + std::to_string(tools_.head.ticks_per_s) +
+                             " via points per second can hold: " + std::to_string(least) + " is reached at " +
+                             std::to_string(motion.time_s[cut.first_sample]) + " s");
+    started_ = true;
+    return last_ = std::move(found);
+}
+
+}  // namespace viaface

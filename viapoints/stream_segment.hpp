@@ -1,0 +1,56 @@
+// One segment of a stream: what stands in its packet, and the search for it.
+#pragma once
+
+#include "viapoints/stream_cut.hpp"
+#include "viapoints/via_stream_head.hpp"
+
+namespace viaface {
+
+inline constexpr int kMostFiner = 7;
+
+// A segment with its own step: the stream's, halved `finer` times.
+struct SegmentVia {
+    QuantisedSegment via;
+    int finer = 0;
+};
+
+double step_of(const StreamHead& head, int finer);
+
+Bytes segment_content(const StreamTools& tools, const SegmentVia& segment);
+// std::runtime_error for content that is none.
+SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> content);
+
+// The bits that a packet tells before its via points: finer, and the length.
+inline constexpr int kFinerBits = 3;
+int length_bits(std::uint32_t longest_segment);
+
+// Segment after segment of a motion, in order: each begins with what the one before ended with.
+class SegmentEncoder {
+  public:
+    SegmentEncoder(const StreamTools& tools, int rounds) : tools_(tools), rounds_(rounds) {}
+
+    // InputError("max_error_mm", ...) when the bound cannot be held on the grid of ticks.
+    SegmentVia encode(const Motion& motion, const CutSegment& cut);
+
+  private:
+    struct Ends {
+        bool first_moves, last_moves;
+    };
+    SegmentVia searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const;
+    int coarsest() const;  // the least `finer` at which the segment before ends on a whole step
+    ViaValues first_values(int finer) const;
+
+    const StreamTools& tools_;
+    int rounds_;
+    bool started_ = false;
+    SegmentVia last_;
+};
+
+// The largest and summed squared 3-D distance of the points of the samples of a segment from those drawn.
+struct SegmentError {
+    double largest_mm = 0, squared_sum = 0;
+};
+SegmentError segment_error(const StreamTools& tools, const SegmentVia& segment, const Motion& motion,
+                           const CutSegment& cut);
+
+}  // namespace viaface

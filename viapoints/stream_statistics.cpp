@@ -1,0 +1,77 @@
+#include "viapoints/stream_statistics.hpp"
+
+#include <algorithm>
+
+namespace viaface {
+namespace {
+
+constexpr int kWeightBits = 12;
+constexpr std::int64_t kWeightOne = 1 << kWeightBits;
+
+}  // namespace
+
+int gap_class(int gap_ticks) { return gap_ticks <= 4 ? 0 : gap_ticks <= 8 ? 1 : 2; }
+
+std::size_t StreamStatistics::weights_at(int j, int gap_class) const {
+    const auto k = static_cast<std::size_t>(components), n = static_cast<std::size_t>(j);
+    const std::size_t before = kGapClasses * (n * (2 + k) + n * (n - 1) / 2);
+    return before + static_cast<std::size_t>(gap_class) * features(components, j);
+}
+
+Prediction StreamStatistics::predict(int j, int gap_class, const ViaPast& past, const ViaValues& now) const {
+    const std::int32_t* w = weights.data() + weights_at(j, gap_class);
+    std::int64_t sum = *w++;
+    for (int i = 0; i < components; ++i) sum += std::int64_t{*w++} * past.last[static_cast<std::size_t>(i)];
+    sum += std::int64_t{*w++} * past.before[static_cast<std::size_t>(j)];
+    for (int i = 0; i < j; ++i) sum += std::int64_t{*w++} * now[static_cast<std::size_t>(i)];
+    const std::int64_t most = kLargestValue * kWeightOne;
+    sum = std::clamp(sum, -most, most);
+    const std::int64_t nearest = (sum + kWeightOne / 2) >> kWeightBits;
+    const std::int64_t off = sum - nearest * kWeightOne;
+    return {static_cast<std::int32_t>(nearest), off > kWeightOne / 6 ? 1 : off < -kWeightOne / 6 ? 2 : 0};
+}
+
+StreamStatistics plain_statistics(int components) {
+    StreamStatistics plain;
+    plain.components = components;
+    plain.value.resize(static_cast<std::size_t>(components));
+    std::size_t size = 0;
+    for (int j = 0; j < components; ++j) size += kGapClasses * StreamStatistics::features(components, j);
+    plain.weights.assign(size, 0);
+    for (int j = 0; j < components; ++j) {
+        for (int c = 0; c < kGapClasses; ++c)
+            plain.weights[plain.weights_at(j, c) + 1 + static_cast<std::size_t>(j)] = kWeightOne;
+    }
+    return plain;
+}
+
+StreamStatistics with_components(const StreamStatistics& statistics, int components) {
+    if (statistics.components == components) return statistics;
+    StreamStatistics other = plain_statistics(components);
+    other.bound_mm = statistics.bound_mm;
+    other.step_mm = statistics.step_mm;
+    other.gap = statistics.gap;
+    other.beyond = statistics.beyond;
+    const int common = std::min(components, statistics.components);
+    for (int j = 0; j < common; ++j) {
+        other.value[static_cast<std::size_t>(j)] = statistics.value[static_cast<std::size_t>(j)];
+        for (int c = 0; c < kGapClasses; ++c) {
+            const std::int32_t* from = statistics.weights.data() + statistics.weights_at(j, c);
+            std::int32_t* to = other.weights.data() + other.weights_at(j, c);
+            std::fill(to, to + 1 + components, 0);
+            std::copy(from, from + 1 + common, to);  // bias, and the last values of what both have
+            std::copy(from + 1 + statistics.components, from + 2 + statistics.components + j,
+                      to + 1 + components);
+        }
+    }
+    return other;
+}
+
+void put_features(int j, const ViaPast& past, const ViaValues& now, std::vector<double>& features) {
+    features.assign(1, 1.0);
+    features.insert(features.end(), past.last.begin(), past.last.end());
+    features.push_back(past.before[static_cast<std::size_t>(j)]);
+    features.insert(features.end(), now.begin(), now.begin() + j);
+}
+
+}  // namespace viaface

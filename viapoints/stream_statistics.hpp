@@ -1,0 +1,157 @@
+// What a stream's coder knows beforehand of a talker's via points: how each component follows from the two
+// via points before and from the components already told, and how often which choice was taken. Learned from
+// via points at one bound; all of it integers, as FORMAT.md has it, so that all machines predict alike.
+//
+// A via point is its gap from the one before, in ticks, and k values, each in steps of the stream. The
+// prediction of value j is
+//   (bias_j + sum_i past_ji q_i[n-1] + before_j q_j[n-2] + sum_{i<j} now_ji q_i[n]) / 4096
+// with weights for each class of gap; coded is the difference from its rounding, as a choice "any at all",
+// a sign, and a count in unary, each with the probability that its surroundings give.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "viapoints/range_coder.hpp"
+
+namespace viaface {
+
+inline constexpr int kGapClasses = 4;  // by length; the last one is the start of a segment
+inline constexpr int kStartClass = 3;
+inline constexpr int kMostGapTicks = 64;
+inline constexpr int kUnaryLimit = 14;
+inline constexpr std::int32_t kLargestValue = 1 << 15;  // of a quantised component, either way
+
+using ViaValues = std::vector<std::int32_t>;  // one quantised component each, in steps
+
+int gap_class(int gap_ticks);
+
+// The via points that are known when one is told.
+struct ViaPast {
+    const ViaValues& last;    // n-1; zeros at a start
+    const ViaValues& before;  // n-2; as last where there is none
+};
+
+inline ViaPast past_of(const std::vector<ViaValues>& values, std::size_t n, const ViaValues& zeros) {
+    return {n > 0 ? values[n - 1] : zeros, n > 1 ? values[n - 2] : n > 0 ? values[n - 1] : zeros};
+}
+
+struct Prediction {
+    std::int32_t nearest = 0;
+    int side = 0;  // 0: the nearest is about right, 1: a little more is likely, 2: a little less
+};
+
+struct ValueContexts {
+    static constexpr int kActivities = 3;
+    std::array<std::array<AdaptiveBit, kActivities>, kGapClasses> any;
+    std::array<std::array<AdaptiveBit, 3>, 2> negative;
+    std::array<std::array<AdaptiveBit, kUnaryLimit>, kActivities> more;
+};
+
+struct GapContexts {
+    std::array<std::array<AdaptiveBit, kMostGapTicks>, 3> longer;  // by the class of the gap before
+};
+
+struct StreamStatistics {
+    int components = 0;
+    double bound_mm = 1;                // at which they were learned
+    double step_mm = 2;                 // of every component
+    std::vector<std::int32_t> weights;  // [components][kGapClasses][features(j)], in 1/4096
+    std::vector<ValueContexts> value;   // one per component
+    GapContexts gap;
+    AdaptiveBit beyond;  // of what exceeds the unary count
+
+    static std::size_t features(int components, int j) {
+        return static_cast<std::size_t>(2 + components + j);
+    }
+    std::size_t weights_at(int j, int gap_class) const;
+    Prediction predict(int j, int gap_class, const ViaPast& past, const ViaValues& now) const;
+};
+
+// Every probability, in the order of FORMAT.md.
+void for_each_bit(StreamStatistics& statistics, const auto& visit) {
+    const auto all = [&](auto& rows) {
+        for (auto& row : rows)
+            for (AdaptiveBit& bit : row) visit(bit);
+    };
+    for (ValueContexts& contexts : statistics.value) {
+        all(contexts.any);
+        all(contexts.negative);
+        all(contexts.more);
+    }
+    all(statistics.gap.longer);
+    visit(statistics.beyond);
+}
+
+// The same for fewer or more components: those that are new start as plain ones.
+StreamStatistics with_components(const StreamStatistics& statistics, int components);
+
+// Knows nothing of anybody: the last value is predicted, and all else is learned on the way.
+StreamStatistics plain_statistics(int components);
+
+// The features of value j, in the order of its weights.
+void put_features(int j, const ViaPast& past, const ViaValues& now, std::vector<double>& features);
+
+// Codes via points one after the other. Coder is RangeEncoder, RangeDecoder, or a meter: bit and even take
+// the value to code and return the value coded.
+template <class Coder>
+class ViaCoder {
+  public:
+    ViaCoder(Coder& coder, StreamStatistics statistics) : coder_(coder), known_(std::move(statistics)) {}
+
+    // 1 to at_most; at_most at least 1
+    int gap(int ticks, int at_most) {
+        auto& contexts = known_.gap.longer[static_cast<std::size_t>(last_class_)];
+        int coded = 1;
+        while (coded < at_most && coder_.bit(contexts[static_cast<std::size_t>(coded - 1)], ticks > coded))
+            ++coded;
+        last_class_ = gap_class(coded);
+        return coded;
+    }
+
+    // A via point's values; `values` is given by an encoder and filled by a decoder.
+    void values(ViaValues& values, const ViaPast& past, int gap_class) {
+        int active = 0;
+        for (int j = 0; j < known_.components; ++j) {
+            const Prediction predicted = known_.predict(j, gap_class, past, values);
+            const auto at = static_cast<std::size_t>(j);
+            const std::int32_t rest = difference(values[at] - predicted.nearest, known_.value[at], gap_class,
+                                                 active < 2 ? active : 2, predicted.side);
+            values[at] = predicted.nearest + rest;
+            active += rest != 0;
+        }
+    }
+
+    const StreamStatistics& known() const { return known_; }
+
+  private:
+    std::int32_t difference(std::int32_t wanted, ValueContexts& contexts, int gap_class, int active,
+                            int side) {
+        const auto a = static_cast<std::size_t>(active);
+        if (!coder_.bit(contexts.any[static_cast<std::size_t>(gap_class)][a], wanted != 0)) return 0;
+        const bool negative = coder_.bit(
+            contexts.negative[gap_class == kStartClass][static_cast<std::size_t>(side)], wanted < 0);
+        const std::int32_t size = negative ? -wanted : wanted;
+        std::int32_t coded = 1;
+        while (coded <= kUnaryLimit &&
+               coder_.bit(contexts.more[a][static_cast<std::size_t>(coded - 1)], size > coded))
+            ++coded;
+        if (coded > kUnaryLimit)
+            coded += static_cast<std::int32_t>(far(static_cast<std::uint32_t>(size - coded)));
+        return negative ? -coded : coded;
+    }
+
+    // Elias gamma of value + 1, at most 17 bits
+    std::uint32_t far(std::uint32_t value) {
+        int bits = 0;
+        while (bits < 16 && coder_.bit(known_.beyond, ((value + 1) >> bits) > 1)) ++bits;
+        return (1u << bits) + coder_.even((value + 1) & ((1u << bits) - 1), bits) - 1;
+    }
+
+    Coder& coder_;
+    StreamStatistics known_;
+    int last_class_ = 1;
+};
+
+}  // namespace viaface

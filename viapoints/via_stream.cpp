@@ -1,0 +1,186 @@
+#include "viapoints/via_stream.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "viapoints/measured.hpp"
+#include "viapoints/stream_packets.hpp"
+#include "viapoints/stream_segment.hpp"
+
+namespace viaface {
+namespace {
+
+using Eigen::Index;
+
+constexpr int kTicksPerSecond = 30;
+constexpr int kMostTicksPerSecond = 240;
+constexpr double kStepPerBound = 5;   // where no statistics say otherwise
+constexpr double kBasisShare = 0.35;  // of the bound, that the basis may leave
+constexpr std::size_t kMostSamples = 10'000'000;
+
+void check(const Motion& motion, const StreamOptions& options) {
+    const auto in = [](const char* field, double value, double low, double high, const char* allowed) {
+        if (!(value >= low && value <= high)) throw InputError(field, std::to_string(value), allowed);
+    };
+    in("max_error_mm", options.max_error_mm, 0.01, 100, "0.01 to 100");
+    in("sync_s", options.sync_s, 0.2, 60, "0.2 to 60");
+    if (motion.size() < 2 || motion.size() > kMostSamples)
+        throw InputError("motion", std::to_string(motion.size()) + " samples", "2 to 10000000 samples");
+    if (motion.positions.rows() != static_cast<Index>(motion.size()))
+        throw std::invalid_argument("a motion's times and positions differ in number");
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        if (!std::isfinite(motion.time_s[i]) || (i > 0 && motion.time_s[i] <= motion.time_s[i - 1]))
+            throw InputError("motion", "time " + std::to_string(i), "rising, finite times");
+    }
+    if (motion.time_s.back() - motion.time_s.front() > 1e6)
+        throw InputError("motion", std::to_string(motion.time_s.back() - motion.time_s.front()) + " s",
+                         "at most 1000000 s");
+}
+
+void check_points(const std::vector<int>& points, const StreamModel& model) {
+    const std::vector<int> held = points_of(model.basis);
+    for (const int p : points) {
+        if (!std::binary_search(held.begin(), held.end(), p))
+            throw InputError(
+                "talker", model.name,
+                "a talker whose stream model holds the point " + std::string(point_name(p)) + ", or none");
+    }
+}
+
+// The basis of a motion of its own: its mean, and as many modes as its extension finds.
+ConfigurationBasis mean_of(const RowMatrix& positions) {
+    return stored_basis({positions.colwise().mean().transpose(), Eigen::MatrixXd(kCoordinates, 0)});
+}
+
+StreamTools tools_for(const Motion& motion, const StreamModel* model, const StreamOptions& options,
+                      int ticks_per_s) {
+    StreamTools tools;
+    StreamHead& head = tools.head;
+    head.points = measured_points(motion.positions, "motion");
+    head.start_s = motion.time_s.front();
+    head.ticks_per_s = ticks_per_s;
+    head.longest_segment =
+        static_cast<std::uint32_t>(std::max(1.0, std::floor(options.sync_s * ticks_per_s + 1e-9)));
+    head.bound_mm = static_cast<double>(std::nextafter(static_cast<float>(options.max_error_mm), 0.0f));
+    double step_per_bound = kStepPerBound;
+    if (model) {
+        check_points(head.points, *model);
+        const std::size_t table = model->table_for(options.max_error_mm);
+        const StreamStatistics& statistics = model->tables[table];
+        head.talker = model->name;
+        head.model_identity = model->identity();
+        head.table = static_cast<int>(table);
+        head.shared_modes = statistics.components;
+        tools.basis = {model->basis.mean, model->basis.modes.leftCols(statistics.components)};
+        tools.statistics = statistics;
+        step_per_bound = statistics.step_mm / statistics.bound_mm;
+    } else {
+        tools.basis = mean_of(motion.positions);
+    }
+    head.step_mm = static_cast<double>(static_cast<float>(step_per_bound * options.max_error_mm));
+    tools.basis = extended_basis(tools.basis, head.points, motion.positions, kBasisShare * head.bound_mm);
+    if (tools.basis.size() == 0)
+        tools.basis = stored_basis(
+            {tools.basis.mean,
+             Eigen::MatrixXd::Identity(kCoordinates, kCoordinates).middleCols(3 * head.points.front(), 1)});
+    tools.statistics = with_components(tools.statistics, static_cast<int>(tools.basis.size()));
+    return tools;
+}
+
+std::vector<SegmentVia> segments_of(const Motion& motion, const StreamTools& tools,
+                                    const std::vector<CutSegment>& cuts, int rounds) {
+    SegmentEncoder encoder(tools, rounds);
+    std::vector<SegmentVia> segments;
+    for (const CutSegment& cut : cuts) segments.push_back(encoder.encode(motion, cut));
+    return segments;
+}
+
+std::uint32_t to_ticks(double seconds, const StreamHead& head, double limit) {
+    return static_cast<std::uint32_t>(
+        std::clamp(std::floor((seconds - head.start_s) * head.ticks_per_s), 0.0, limit));
+}
+
+// Phones that begin within a segment travel beside it.
+Bytes phones_content(const std::vector<StreamPhone>& phones, const StreamHead& head, std::uint32_t first,
+                     std::uint32_t last, bool is_last) {
+    ByteWriter writer;
+    double at = head.start_s + double(first) / head.ticks_per_s;
+    for (const StreamPhone& phone : phones) {
+        const std::uint32_t tick = to_ticks(phone.begin_s, head, 4e9);
+        if ((tick < first && first > 0) || (tick >= last && !is_last)) continue;
+        writer.put(phone.phone);
+        put_varint(writer, static_cast<std::uint32_t>(std::lround(std::max(0.0, phone.begin_s - at) * 1000)));
+        put_varint(writer, static_cast<std::uint32_t>(std::lround((phone.end_s - phone.begin_s) * 1000)));
+        at = phone.begin_s;
+    }
+    return writer.bytes();
+}
+
+void append(Bytes& bytes, const Bytes& more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
+
+// As a receiver sees it: from the bytes alone.
+void measure(EncodedStream& encoded, const Motion& motion, const StreamModel* model, const StreamHead& head) {
+    const std::vector<const StreamModel*> models =
+        model ? std::vector<const StreamModel*>{model} : std::vector<const StreamModel*>{};
+    const DecodedStream decoded = decode_stream(encoded.bytes, models);
+    if (!decoded.damage.empty())
+        throw std::runtime_error("the stream does not decode: " + decoded.describe_damage());
+    const RowMatrix off = coordinates_of(decoded.positions(motion.time_s) - motion.positions, head.points);
+    if (!off.allFinite()) throw std::runtime_error("the stream does not cover the motion");
+    encoded.account.max_error_mm = longest_triple(off);
+    encoded.account.rms_error_mm = std::sqrt(off.squaredNorm() / static_cast<double>(off.size() / 3));
+}
+
+EncodedStream written(const Motion& motion, const StreamTools& tools, const std::vector<CutSegment>& cuts,
+                      const std::vector<SegmentVia>& segments, const std::vector<StreamPhone>& phones) {
+    EncodedStream encoded;
+    StreamAccount& account = encoded.account;
+    encoded.bytes = write_stream_head(tools);
+    account.head_bytes = encoded.bytes.size();
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const bool is_last = i + 1 == segments.size();
+        const Bytes spoken =
+            phones_content(phones, tools.head, cuts[i].first_tick, cuts[i].last_tick, is_last);
+        if (!spoken.empty()) {
+            const Bytes packet = write_packet(PacketType::kPhones, cuts[i].first_tick, spoken);
+            account.phone_bytes += packet.size();
+            append(encoded.bytes, packet);
+        }
+        const Bytes content = segment_content(tools, segments[i]);
+        account.payload_bytes += content.size();
+        account.via_points += segments[i].via.tick.size();
+        append(encoded.bytes, write_packet(PacketType::kSegment, cuts[i].first_tick, content));
+    }
+    append(encoded.bytes, write_packet(PacketType::kEnd, cuts.back().last_tick, {}));
+    account.segments = segments.size();
+    account.seconds = motion.time_s.back() - motion.time_s.front();
+    account.all_bytes = encoded.bytes.size();
+    return encoded;
+}
+
+}  // namespace
+
+EncodedStream encode_stream(const Motion& motion, const StreamModel* model, const StreamOptions& options,
+                            const std::vector<StreamPhone>& phones) {
+    check(motion, options);
+    for (int ticks_per_s = kTicksPerSecond;; ticks_per_s *= 2) {
+        const StreamTools tools = tools_for(motion, model, options, ticks_per_s);
+        const std::vector<CutSegment> cuts =
+            cut_motion(motion, tools.head.points, ticks_per_s, tools.head.longest_segment);
+        std::vector<SegmentVia> segments;
+        try {
+            segments = segments_of(motion, tools, cuts, options.rounds);
+        } catch (const InputError&) {
+            if (ticks_per_s == kMostTicksPerSecond) throw;
+            continue;
+        }
+        EncodedStream encoded = written(motion, tools, cuts, segments, phones);
+        measure(encoded, motion, model, tools.head);
+        if (encoded.account.max_error_mm > options.max_error_mm)
+            throw std::runtime_error("the stream exceeds its bound");
+        return encoded;
+    }
+}
+
+}  // namespace viaface
