@@ -71,8 +71,8 @@ std::vector<double> ends_asked_for(std::span<const double> own_ends, std::span<c
 Utterance with_pauses_asked_for(Utterance said, std::span<const RequestedPhone> phones) {
     for (std::size_t i = 0; i < phones.size(); ++i) {
         if (phones[i].phone != kPause || !phones[i].duration) continue;
-        said = with_pause_length(std::move(said), i,
-                                 std::llround(*phones[i].duration * said.sound.sample_rate / 1000));
+        const auto length = std::llround(*phones[i].duration * said.sound.sample_rate / 1000);
+        said = with_pause_length(std::move(said), i, length);
     }
     return said;
 }

@@ -40,7 +40,8 @@ Utterance utterance_of(std::span<const SpokenPhone> spoken, Waveform sound) {
 Utterance with_edges(Utterance said) {
     const double rate = said.sound.sample_rate;
     said = with_pause_length(std::move(said), 0, std::llround(kLeadIn * rate));
-    return with_pause_length(std::move(said), said.phones.phones.size() - 1, std::llround(kLeadOut * rate));
+    const std::size_t last = said.phones.phones.size() - 1;
+    return with_pause_length(std::move(said), last, std::llround(kLeadOut * rate));
 }
 
 }  // namespace viaface
