@@ -1,21 +1,17 @@
 #include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <set>
 
 #include "base/error.hpp"
-#include "base/whole_file.hpp"
 #include "server/commands.hpp"
+#include "server/film_output.hpp"
 #include "server/requests.hpp"
 #include "synth/say/report_json.hpp"
 #include "synth/speech/text_grid.hpp"
-#include "synth/talker/talker_shelf.hpp"
-#include "viapoints/motion_csv.hpp"
 
 namespace viaface {
 namespace {
@@ -28,66 +24,10 @@ struct SayOptions {
     bool quiet = false;
 };
 
-bool write_to_stdout(std::span<const std::uint8_t> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return false;
-        bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-    return true;
-}
-
 std::unique_ptr<FilmWriter> film_for(const SayOptions& options) {
     const View& view = options.request.say.view;
-    FilmSpec spec{view.width, view.height, options.request.say.fps};
-    if (options.output == "-") return open_film(spec, write_to_stdout);
-    spec.format = film_format_of(options.output);
-    return open_film(spec, std::filesystem::path(options.output));
+    return open_output({view.width, view.height, options.request.say.fps}, options.output);
 }
-
-std::shared_ptr<const Talker> talker_at(const std::string& name) {
-    const bool folder = name.find('/') != std::string::npos;
-    if (folder) return std::make_shared<const Talker>(load_talker(name));
-    return TalkerShelf(talkers_folder()).load(name);
-}
-
-// Frames as rows of a motion file, to a ten-thousandth of a mm.
-class MotionRows {
-  public:
-    void add(double time_s, const Configuration& points) {
-        time_s_.push_back(time_s);
-        for (const double mm : points) mm_.push_back(std::round(mm * 1e4) / 1e4);
-    }
-    std::string text(const std::string& what) const {
-        const auto rows = static_cast<Eigen::Index>(time_s_.size());
-        const Motion motion{time_s_, Eigen::Map<const RowMatrix>(mm_.data(), rows, kCoordinates)};
-        return format_motion_csv(motion, {what, "mm, head frame: x to the talker's left, y up, z forward"});
-    }
-
-  private:
-    std::vector<double> time_s_, mm_;
-};
-
-// A file beside the film: its place is taken before any work is done.
-class SideFile {
-  public:
-    SideFile(const std::string& option, const std::string& path) {
-        if (!path.empty()) file_.emplace(path, option);
-    }
-    bool wanted() const { return file_.has_value(); }
-    void write(std::string_view text) {
-        std::ofstream out(file_->path(), std::ios::binary | std::ios::trunc);
-        if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush())
-            throw std::runtime_error("writing " + file_->path().string() + " failed");
-    }
-    void commit() {
-        if (file_) file_->commit();
-    }
-
-  private:
-    std::optional<WholeFile> file_;
-};
 
 // What goes beside the film.
 class SideFiles {

@@ -10,6 +10,7 @@
 #include "base/bytes.hpp"
 #include "synth/film/film_writer.hpp"
 #include "synth/picture/view.hpp"
+#include "synth/render/animation.hpp"
 #include "synth/say/recital.hpp"
 #include "synth/talker/talker.hpp"
 
@@ -20,14 +21,6 @@ struct SayRequest {
     View view;
     FrameRate fps;
     std::uint64_t seed = 1;  // of the blinks
-};
-
-// A frame as it is drawn.
-struct DrawnFrame {
-    std::int64_t index = 0;
-    double time_s = 0;
-    Configuration commanded;  // off the spline
-    Configuration drawn;      // off the posed mesh, after contact
 };
 
 // Who looks on; empty ones are not called. All are called from the thread that calls say().

@@ -1,0 +1,44 @@
+#include "synth/render/animation.hpp"
+
+#include <cmath>
+
+namespace viaface {
+
+Animation::Animation(const Talker& talker, const View& view, FrameRate fps, FilmWriter& film,
+                     std::function<void(const DrawnFrame&)> onlooker, const Drawing& drawing)
+    : talker_(talker),
+      film_(film),
+      fps_(fps),
+      onlooker_(std::move(onlooker)),
+      portrait_(talker.face, view, drawing) {}
+
+void Animation::draw(const Configuration& commanded, const Blink& blink, const Eigen::Isometry3d& head) {
+    Nodes posed = talker_.poser.posed(commanded, blink);
+    const DrawnFrame frame{frames_, time_of(frames_), commanded, talker_.poser.drawn_points(posed)};
+    if (!head.isApprox(Eigen::Isometry3d::Identity()))
+        posed = ((posed * head.linear().transpose()).rowwise() + head.translation().transpose()).eval();
+    film_.add_frame(portrait_.draw(posed));
+    compare(frame);
+    motion_hash_ =
+        fnv1a({reinterpret_cast<const std::uint8_t*>(commanded.data()), kCoordinates * sizeof(double)},
+              motion_hash_);
+    if (onlooker_) onlooker_(frame);
+    ++frames_;
+}
+
+void Animation::compare(const DrawnFrame& frame) {
+    const Configuration apart = frame.drawn - frame.commanded;
+    for (int point = 0; point < kPoints; ++point) {
+        const double squared = point_of(apart, point).squaredNorm();
+        if (std::isnan(squared)) continue;
+        squares_ += squared;
+        ++compared_;
+        farthest_ = std::max(farthest_, std::sqrt(squared));
+    }
+}
+
+double Animation::rms_mm() const {
+    return compared_ == 0 ? 0 : std::sqrt(squares_ / static_cast<double>(compared_));
+}
+
+}  // namespace viaface
