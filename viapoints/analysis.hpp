@@ -26,6 +26,8 @@ struct AnalysisOptions {
 struct Analysis {
     ViaPointTrack track;
     double max_error_mm = 0;      // largest 3-D distance of any point at any sample, recovered from measured
+    double worst_time_s = 0;      // where that is
+    int worst_point = 0;          // in the layout
     double rms_error_mm = 0;      // root mean square of those distances
     std::size_t evaluations = 0;  // sample evaluations it took: the measure of work
 };
@@ -41,6 +43,19 @@ Analysis analyse_in_full(const Motion& motion, const ConfigurationBasis& basis,
                          const AnalysisOptions& options = {});
 ViaPointTrack analyse(const Motion& motion, const ConfigurationBasis& basis,
                       const AnalysisOptions& options = {});
+
+// The same with via times of its own for each dimension: a track of one dimension each, those of points that
+// were never measured empty. A coordinate keeps to bound / sqrt(3); a component to what leaves each point
+// within the bound when all components miss by as much at once.
+struct SeparateAnalysis {
+    std::vector<ViaPointTrack> tracks;  // one per coordinate of the layout, or component
+    double max_error_mm = 0, worst_time_s = 0, rms_error_mm = 0;
+    int worst_point = 0;
+    std::size_t evaluations = 0;
+};
+SeparateAnalysis analyse_separately(const Motion& motion, const AnalysisOptions& options = {});
+SeparateAnalysis analyse_separately(const Motion& motion, const ConfigurationBasis& basis,
+                                    const AnalysisOptions& options = {});
 
 // The track's dimensions at rising times: [times x dimensions].
 RowMatrix recover(const ViaPointTrack& track, const std::vector<double>& times_s);
