@@ -8,9 +8,9 @@ namespace {
 
 using Strain = Eigen::Matrix<double, 3, 6>;  // B of eq. 27, for u1 v1 u2 v2 u3 v3 (eq. 36)
 
-double constrained_modulus(const Material& material) {
-    const double v = material.poisson;
-    return material.modulus * (1 - v) / ((1 + v) * (1 - 2 * v));
+double constrained_modulus(const Elasticity& elasticity) {
+    const double v = elasticity.poisson;
+    return elasticity.modulus * (1 - v) / ((1 + v) * (1 - 2 * v));
 }
 
 // Corners in the plane of the element: columns are corners.
@@ -61,17 +61,17 @@ Corners corners_of(const Nodes& nodes, const Triangle& triangle) {
 
 }  // namespace
 
-Eigen::Matrix3d plane_strain(const Material& material) {
-    const double v = material.poisson;
+Eigen::Matrix3d plane_strain(const Elasticity& elasticity) {
+    const double v = elasticity.poisson;
     Eigen::Matrix3d c;
     c << 1, v / (1 - v), 0, v / (1 - v), 1, 0, 0, 0, (1 - 2 * v) / (2 * (1 - v));
-    return constrained_modulus(material) * c;
+    return constrained_modulus(elasticity) * c;
 }
 
-Eigen::Matrix3d out_of_plane(const Material& material) {
+Eigen::Matrix3d out_of_plane(const Elasticity& elasticity) {
     Eigen::Matrix3d k;
     k << 1, -0.5, -0.5, -0.5, 1, -0.5, -0.5, -0.5, 1;
-    return constrained_modulus(material) * k;
+    return constrained_modulus(elasticity) * k;
 }
 
 Eigen::Matrix3d element_frame(const Corners& corners) {
@@ -86,12 +86,12 @@ Eigen::Matrix3d element_frame(const Corners& corners) {
     return frame;
 }
 
-ElementStiffness element_stiffness(const Corners& corners, const Material& material) {
+ElementStiffness element_stiffness(const Corners& corners, const Elasticity& elasticity) {
     const Eigen::Matrix3d frame = element_frame(corners);
     const double area = area_of(corners);
     const Strain b = strain_of(flattened(corners, frame), area);
     const ElementStiffness local =
-        local_stiffness(area * b.transpose() * plane_strain(material) * b, out_of_plane(material));
+        local_stiffness(area * b.transpose() * plane_strain(elasticity) * b, out_of_plane(elasticity));
     ElementStiffness turn = ElementStiffness::Zero();  // T, eq. 31
     for (int i = 0; i < 3; ++i) turn.block<3, 3>(3 * i, 3 * i) = frame;
     return turn.transpose() * local * turn;

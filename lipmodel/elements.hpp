@@ -16,7 +16,7 @@
 
 namespace viaface {
 
-struct Material {
+struct Elasticity {
     double modulus = 1;     // E, eq. 37
     double poisson = 0.01;  // v, eq. 37: in [0, 0.5)
 };
@@ -24,10 +24,10 @@ struct Material {
 using Corners = std::array<Eigen::Vector3d, 3>;
 using ElementStiffness = Eigen::Matrix<double, 9, 9>;  // x y z of each corner in turn
 
-Eigen::Matrix3d plane_strain(const Material& material);  // C, eq. 37
-Eigen::Matrix3d out_of_plane(const Material& material);  // k_z, eq. 38
-Eigen::Matrix3d element_frame(const Corners& corners);   // lambda, eq. 30; k is the normal
-ElementStiffness element_stiffness(const Corners& corners, const Material& material);  // k_e', eq. 32
+Eigen::Matrix3d plane_strain(const Elasticity& elasticity);  // C, eq. 37
+Eigen::Matrix3d out_of_plane(const Elasticity& elasticity);  // k_z, eq. 38
+Eigen::Matrix3d element_frame(const Corners& corners);       // lambda, eq. 30; k is the normal
+ElementStiffness element_stiffness(const Corners& corners, const Elasticity& elasticity);  // k_e', eq. 32
 
 // K [3 nodes x 3 nodes], eq. 33; `modulus` of each triangle. std::invalid_argument for a triangle without
 // area, an index without a node, or numbers of triangles and moduli that differ.

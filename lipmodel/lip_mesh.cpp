@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRidgeStiffness = 2, kStripStiffness = 0.1;
 constexpr double kMouthHeight = -2;    // mm: where closed lips meet
-constexpr double kArch = 0.011;        // 1/mm: how the lips follow the teeth round
+constexpr double kArch = 0.02;         // 1/mm: how the lips follow the teeth round
 constexpr double kStripQuadDepth = 6;  // mm
 
 struct Ring {
@@ -16,12 +16,12 @@ struct Ring {
     double roundness;                // y = half_height (1 - (x / half_width)^2)^roundness
     double forward;                  // z in the middle, mm
 };
-constexpr std::array<Ring, LipMesh::kRings> kGenericRings = {{{35, 24, 0.5, 8},
-                                                              {30, 16, 0.6, 10},
-                                                              {26, 10, 0.8, 13},
-                                                              {25, 6.5, 0.9, 14.5},
-                                                              {24, 3, 1.0, 13.5},
-                                                              {23, 0.3, 1.0, 11}}};
+constexpr std::array<Ring, LipMesh::kRings> kGenericRings = {{{35, 24, 0.5, 7},
+                                                              {30, 16, 0.6, 9},
+                                                              {26, 10, 0.8, 11.5},
+                                                              {25, 6.5, 0.9, 12.5},
+                                                              {23.5, 3, 1.0, 10.5},
+                                                              {22.5, 0.3, 1.0, 6.5}}};
 
 Eigen::Vector3d generic_place(int ring, int column) {
     const Ring& shape = kGenericRings[ring];

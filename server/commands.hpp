@@ -18,6 +18,7 @@ Command add_bench(CLI::App& program);
 Command add_via(CLI::App& program);
 Command add_motion(CLI::App& program);
 Command add_render(CLI::App& program);
+Command add_lips(CLI::App& program);
 
 // The folder of the built-in talkers: $VIAFACE_TALKERS, else the one of the source tree the program was built
 // from.

@@ -105,7 +105,8 @@ TEST(Elements, ThePatchTestInPlane) {
 }
 
 // Energy from the strains themselves, by another way than K: lengths of edges give the strains in plane.
-double energy_of_strains(const Corners& c, const Eigen::Matrix<double, 9, 1>& u, const Material& material) {
+double energy_of_strains(const Corners& c, const Eigen::Matrix<double, 9, 1>& u,
+                         const Elasticity& elasticity) {
     const Eigen::Matrix3d frame = element_frame(c);
     Eigen::Matrix3d edges;            // strain along an edge: (a^2, b^2, a b) . (ex, ey, gxy)
     Eigen::Vector3d stretch, across;  // relative, to first order
@@ -119,22 +120,22 @@ double energy_of_strains(const Corners& c, const Eigen::Matrix<double, 9, 1>& u,
     const Eigen::Vector3d strain = edges.fullPivLu().solve(stretch);
     const double area = 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
     const double uneven = (across.array() - across.mean()).square().sum();
-    const double stiff = plane_strain(material)(0, 0);
-    return 0.5 * area * strain.dot(plane_strain(material) * strain) + 0.5 * stiff * 1.5 * uneven;
+    const double stiff = plane_strain(elasticity)(0, 0);
+    return 0.5 * area * strain.dot(plane_strain(elasticity) * strain) + 0.5 * stiff * 1.5 * uneven;
 }
 
 TEST(Elements, ForceIsTheGradientOfEnergy) {
     test::Noise noise(5);
     const Corners corners = {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 2.5, 2), Eigen::Vector3d(2, 5, 4)};
-    for (const Material material : {Material{}, Material{2.0, 0.3}}) {
-        const ElementStiffness k = element_stiffness(corners, material);
+    for (const Elasticity elasticity : {Elasticity{}, Elasticity{2.0, 0.3}}) {
+        const ElementStiffness k = element_stiffness(corners, elasticity);
         const Eigen::Matrix<double, 9, 1> u = noise.matrix(9, 1), force = k * u;
-        EXPECT_NEAR(u.dot(force) / 2, energy_of_strains(corners, u, material), 1e-12 * k.norm());
+        EXPECT_NEAR(u.dot(force) / 2, energy_of_strains(corners, u, elasticity), 1e-12 * k.norm());
         for (int i = 0; i < 9; ++i) {
             constexpr double kStep = 1e-4;  // the energy is quadratic: central differences are exact
             const Eigen::Matrix<double, 9, 1> step = kStep * Eigen::Matrix<double, 9, 1>::Unit(i);
-            const double slope = (energy_of_strains(corners, u + step, material) -
-                                  energy_of_strains(corners, u - step, material)) /
+            const double slope = (energy_of_strains(corners, u + step, elasticity) -
+                                  energy_of_strains(corners, u - step, elasticity)) /
                                  (2 * kStep);
             EXPECT_NEAR(slope, force[i], 1e-9 * k.norm());
         }
