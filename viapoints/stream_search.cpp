@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "viapoints/stream_cost.hpp"
 #include "viapoints/stream_spline.hpp"
@@ -20,7 +21,8 @@ constexpr double kPenalty = 60;   // bits per unit of squared error over the bou
 constexpr double kHard = 1e4;
 constexpr double kNear = 0.1;      // excess at which pairs are worth a try
 constexpr std::size_t kReach = 4;  // via points to either side that settle after a change of times
-constexpr float kHopeless = 2;     // bounds
+constexpr std::size_t kMargin = 9;
+constexpr float kHopeless = 2;  // bounds
 constexpr float kSmallResponse = 1e-4f;
 
 // The via points that are not of the ends: [inner_begin, inner_end).
@@ -29,7 +31,7 @@ std::size_t inner_end(const std::vector<int>& ticks) { return ticks.size() - (mo
 
 // What does not change during the search. Points are kept as all x, all y, all z.
 struct Problem {
-    const SegmentTarget& target;
+    std::vector<double> tick;   // of the samples
     Eigen::MatrixXf mode_rows;  // [3 points x k], reordered, times step / bound
     Eigen::MatrixXf wanted;     // [3 points x samples], reordered, / bound
     RowMatrix components;       // [samples x k], mm
@@ -45,9 +47,9 @@ struct Layout {  // of one set of via times
     std::vector<Index> from, to;
 };
 
-Layout lay_out(const SegmentTarget& target, std::vector<int> ticks) {
+Layout lay_out(const std::vector<double>& samples, std::vector<int> ticks) {
     Layout layout{std::move(ticks), {}, {}, {}};
-    layout.response = control_weights(layout.tick, target.tick).cast<float>();
+    layout.response = control_weights(layout.tick, samples).cast<float>();
     for (Index j = 0; j < layout.response.cols(); ++j) {
         Index from = 0, to = layout.response.rows();
         while (from < to && std::abs(layout.response(from, j)) < kSmallResponse) ++from;
@@ -61,7 +63,7 @@ Layout lay_out(const SegmentTarget& target, std::vector<int> ticks) {
 class Search {
   public:
     Search(const Problem& problem, std::vector<int> ticks, std::vector<ViaValues> values)
-        : problem_(&problem), layout_(lay_out(problem.target, std::move(ticks))), values_(std::move(values)) {
+        : problem_(&problem), layout_(lay_out(problem.tick, std::move(ticks))), values_(std::move(values)) {
         refresh();
     }
 
@@ -84,9 +86,10 @@ class Search {
         for (std::size_t j = 0; j < values_.size(); ++j) bits_[j] = event_bits(j);
     }
 
-    double bits() const {
+    double bits() const { return bits(0, bits_.size()); }
+    double bits(std::size_t begin, std::size_t end) const {
         double sum = 0;
-        for (const double b : bits_) sum += b;
+        for (std::size_t j = begin; j < end; ++j) sum += bits_[j];
         return sum;
     }
     double excess() const { return (error_ - kLimit).max(0.0f).cast<double>().sum(); }
@@ -254,7 +257,7 @@ class Search {
 };
 
 std::vector<ViaValues> fitted(const Problem& problem, const std::vector<int>& ticks, const ViaValues& first) {
-    const RowMatrix response = control_weights(ticks, problem.target.tick);
+    const RowMatrix response = control_weights(ticks, problem.tick);
     Eigen::MatrixXd normal = response.transpose() * response;
     normal.diagonal().array() += 1e-3;
     const Eigen::MatrixXd x = normal.ldlt().solve(response.transpose() * problem.components) / problem.step;
@@ -270,7 +273,7 @@ std::vector<ViaValues> fitted(const Problem& problem, const std::vector<int>& ti
 // Values of via points [begin, end) fitted again by least squares, the others as they are.
 void fit_between(const Problem& problem, const std::vector<int>& ticks, std::vector<ViaValues>& values,
                  std::size_t begin, std::size_t end) {
-    const RowMatrix response = control_weights(ticks, problem.target.tick);
+    const RowMatrix response = control_weights(ticks, problem.tick);
     Index from = 0, to = response.rows();
     const auto b = static_cast<Index>(begin), n = static_cast<Index>(end - begin);
     const auto idle = [&](Index f) { return !(response.block(f, b, 1, n).array() > 0).any(); };
@@ -307,8 +310,8 @@ Search repaired(const Problem& problem, std::vector<int> ticks, const ViaValues&
         std::vector<int> more = ticks;
         for (std::size_t i = 0; i + 1 < ticks.size(); ++i) {
             bool bad = false;
-            for (std::size_t f = 0; f < problem.target.tick.size(); ++f) {
-                const double t = problem.target.tick[f];
+            for (std::size_t f = 0; f < problem.tick.size(); ++f) {
+                const double t = problem.tick[f];
                 bad |= t >= ticks[i] && t <= ticks[i + 1] && search.errors()[static_cast<Index>(f)] > kLimit;
             }
             if (bad && ticks[i + 1] - ticks[i] > 1) more.push_back((ticks[i] + ticks[i + 1]) / 2);
@@ -319,18 +322,57 @@ Search repaired(const Problem& problem, std::vector<int> ticks, const ViaValues&
     }
 }
 
+// A part of a problem: rows [first, last) as via points, and the samples that those between `begin` and `end`
+// move. kMargin rows to either side of these make their B-splines whole.
+struct Window {
+    std::size_t first, last, begin, end;
+};
+
+Window window_around(const std::vector<int>& ticks, std::size_t j, bool first_fixed) {
+    Window w{0, ticks.size(), std::max<std::size_t>(j > kReach ? j - kReach : 0, first_fixed),
+             std::min(j + kReach + 1, ticks.size())};
+    if (w.begin > kMargin + 3) w.first = w.begin - kMargin;
+    if (w.end + kMargin + 3 < ticks.size()) w.last = w.end + kMargin;
+    return w;
+}
+
+Problem part_of(const Problem& problem, const std::vector<int>& ticks, const Window& w) {
+    const double from = ticks[w.begin > 3 ? w.begin - 3 : 0],
+                 to = ticks[std::min(w.end + 2, ticks.size() - 1)];
+    const auto begin = std::lower_bound(problem.tick.begin(), problem.tick.end(), from);
+    const auto end = std::upper_bound(begin, problem.tick.end(), to);
+    const Index at = begin - problem.tick.begin(), n = end - begin;
+    return {std::vector<double>(begin, end),      problem.mode_rows, problem.wanted.middleCols(at, n),
+            problem.components.middleRows(at, n), problem.cost,      problem.step,
+            problem.first_fixed && w.first == 0};
+}
+
 // The search with other via times around via point j, settled there; taken when it costs less.
 bool try_times(const Problem& problem, Search& search, std::vector<int> ticks, std::vector<ViaValues> values,
                std::size_t j) {
-    const std::size_t begin = std::max<std::size_t>(j > kReach ? j - kReach : 0, problem.first_fixed),
-                      end = std::min(j + kReach + 1, ticks.size());
-    fit_between(problem, ticks, values, begin, end);
-    Search other(problem, std::move(ticks), std::move(values));
+    const Window w = window_around(ticks, j, problem.first_fixed);
+    const Problem part = part_of(problem, ticks, w);
+    const auto cut = [&](const auto& rows) {
+        return std::decay_t<decltype(rows)>(rows.begin() + static_cast<std::ptrdiff_t>(w.first),
+                                            rows.begin() + static_cast<std::ptrdiff_t>(w.last));
+    };
+    const std::size_t begin = w.begin - w.first, end = w.end - w.first;
+    std::vector<int> own_ticks = cut(ticks);
+    std::vector<ViaValues> own_values = cut(values);
+    if (part.tick.empty()) return false;
+    fit_between(part, own_ticks, own_values, begin, end);
+    Search other(part, std::move(own_ticks), std::move(own_values));
     other.settle(begin, end, kPenalty, 4);
     if (!other.within() && other.excess() < 1.0) other.settle(begin, end, kHard, 4);
     if (!other.within() && other.excess() < kNear) other.unblock(begin, end, 2);
-    if (!other.within() || other.bits() >= search.bits() - 1e-6) return false;
-    search = std::move(other);
+    if (!other.within()) return false;
+    const std::size_t touched = std::min(w.end + 2, ticks.size()), behind = ticks.size() - touched;
+    if (other.bits(begin, touched - w.first) >= search.bits(w.begin, search.ticks().size() - behind) - 1e-6)
+        return false;
+    std::copy(other.values().begin() + static_cast<std::ptrdiff_t>(begin),
+              other.values().begin() + static_cast<std::ptrdiff_t>(end),
+              values.begin() + static_cast<std::ptrdiff_t>(w.begin));
+    search = Search(problem, std::move(ticks), std::move(values));
     return true;
 }
 
@@ -339,7 +381,7 @@ bool hopeless(const Problem& problem, const std::vector<int>& ticks) {
     std::vector<int> all(ticks.begin(), ticks.begin() + static_cast<std::ptrdiff_t>(inner_begin(ticks)));
     for (int t = ticks.front() + 1; t < ticks.back(); ++t) all.push_back(t);
     all.insert(all.end(), ticks.begin() + static_cast<std::ptrdiff_t>(inner_end(ticks)), ticks.end());
-    const RowMatrix response = control_weights(all, problem.target.tick);
+    const RowMatrix response = control_weights(all, problem.tick);
     Eigen::MatrixXd normal = response.transpose() * response;
     normal.diagonal().array() += 1e-6;
     const RowMatrix drawn = response * normal.ldlt().solve(response.transpose() * problem.components);
@@ -384,7 +426,7 @@ void polish(Search& search) {
 Problem problem_of(const SegmentTarget& target, const Eigen::MatrixXd& modes, const StreamCost& cost,
                    const SearchOptions& options, bool first_fixed) {
     const Index p = modes.rows() / 3;
-    Problem problem{target,
+    Problem problem{target.tick,
                     Eigen::MatrixXf(modes.rows(), modes.cols()),
                     Eigen::MatrixXf(modes.rows(), target.points.rows()),
                     {},

@@ -89,8 +89,7 @@ SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> co
 
 SegmentError segment_error(const StreamTools& tools, const SegmentVia& segment, const Motion& motion,
                            const CutSegment& cut) {
-    const SegmentTarget target =
-        target_of(motion, tools.head.points, tools.basis.mean, cut, tools.head.ticks_per_s, 1);
+    const SegmentTarget target = target_of(motion, tools.head, tools.basis.mean, cut, 1);
     if (target.tick.empty()) return {};
     const RowMatrix off = components_at(segment.via, step_of(tools.head, segment.finer), target.tick) *
                               packed_modes(tools).transpose() -
@@ -112,8 +111,7 @@ SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut,
     std::vector<int> ticks = even_ticks(cut.last_tick - cut.first_tick, ends.first_moves, ends.last_moves);
     std::size_t stride = stride_of(motion, cut);
     for (int tries = 0;; ++tries) {
-        const SegmentTarget target =
-            target_of(motion, tools_.head.points, tools_.basis.mean, cut, tools_.head.ticks_per_s, stride);
+        const SegmentTarget target = target_of(motion, tools_.head, tools_.basis.mean, cut, stride);
         found.via = search_segment(target, packed_modes(tools_), tools_.statistics, ticks,
                                    first_values(finer), options);
         if (stride == 1 || segment_error(tools_, found, motion, cut).largest_mm <= tools_.head.bound_mm)

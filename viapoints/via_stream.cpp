@@ -7,6 +7,7 @@
 #include "viapoints/measured.hpp"
 #include "viapoints/stream_packets.hpp"
 #include "viapoints/stream_segment.hpp"
+#include "viapoints/via_chunks.hpp"
 
 namespace viaface {
 namespace {
@@ -18,6 +19,11 @@ constexpr int kMostTicksPerSecond = 240;
 constexpr double kStepPerBound = 5;   // where no statistics say otherwise
 constexpr double kBasisShare = 0.35;  // of the bound, that the basis may leave
 constexpr std::size_t kMostSamples = 10'000'000;
+
+// A bound as a float, and not above it.
+double stored_bound(double bound_mm) {
+    return static_cast<double>(std::nextafter(static_cast<float>(bound_mm), 0.0f));
+}
 
 void check(const Motion& motion, const StreamOptions& options) {
     const auto in = [](const char* field, double value, double low, double high, const char* allowed) {
@@ -38,19 +44,13 @@ void check(const Motion& motion, const StreamOptions& options) {
                          "at most 1000000 s");
 }
 
-void check_points(const std::vector<int>& points, const StreamModel& model) {
-    const std::vector<int> held = points_of(model.basis);
-    for (const int p : points) {
-        if (!std::binary_search(held.begin(), held.end(), p))
-            throw InputError(
-                "talker", model.name,
-                "a talker whose stream model holds the point " + std::string(point_name(p)) + ", or none");
-    }
-}
-
 // The basis of a motion of its own: its mean, and as many modes as its extension finds.
 ConfigurationBasis mean_of(const RowMatrix& positions) {
     return stored_basis({positions.colwise().mean().transpose(), Eigen::MatrixXd(kCoordinates, 0)});
+}
+
+std::uint32_t longest_segment(const StreamOptions& options, int ticks_per_s) {
+    return static_cast<std::uint32_t>(std::max(1.0, std::floor(options.sync_s * ticks_per_s + 1e-9)));
 }
 
 StreamTools tools_for(const Motion& motion, const StreamModel* model, const StreamOptions& options,
@@ -60,30 +60,21 @@ StreamTools tools_for(const Motion& motion, const StreamModel* model, const Stre
     head.points = measured_points(motion.positions, "motion");
     head.start_s = motion.time_s.front();
     head.ticks_per_s = ticks_per_s;
-    head.longest_segment =
-        static_cast<std::uint32_t>(std::max(1.0, std::floor(options.sync_s * ticks_per_s + 1e-9)));
-    head.bound_mm = static_cast<double>(std::nextafter(static_cast<float>(options.max_error_mm), 0.0f));
-    double step_per_bound = kStepPerBound;
+    head.longest_segment = longest_segment(options, ticks_per_s);
+    head.bound_mm = stored_bound(options.max_error_mm);
     if (model) {
-        check_points(head.points, *model);
-        const std::size_t table = model->table_for(options.max_error_mm);
-        const StreamStatistics& statistics = model->tables[table];
-        head.talker = model->name;
-        head.model_identity = model->identity();
-        head.table = static_cast<int>(table);
-        head.shared_modes = statistics.components;
-        tools.basis = {model->basis.mean, model->basis.modes.leftCols(statistics.components)};
-        tools.statistics = statistics;
-        step_per_bound = statistics.step_mm / statistics.bound_mm;
+        tools = shared_tools(*model, head.points, options.max_error_mm);
+        head.start_s = motion.time_s.front();
+        head.ticks_per_s = ticks_per_s;
+        head.longest_segment = longest_segment(options, ticks_per_s);
     } else {
         tools.basis = mean_of(motion.positions);
+        head.step_mm = static_cast<double>(static_cast<float>(kStepPerBound * options.max_error_mm));
     }
-    head.step_mm = static_cast<double>(static_cast<float>(step_per_bound * options.max_error_mm));
     tools.basis = extended_basis(tools.basis, head.points, motion.positions, kBasisShare * head.bound_mm);
     if (tools.basis.size() == 0)
-        tools.basis = stored_basis(
-            {tools.basis.mean,
-             Eigen::MatrixXd::Identity(kCoordinates, kCoordinates).middleCols(3 * head.points.front(), 1)});
+        tools.basis.modes =
+            Eigen::MatrixXd::Identity(kCoordinates, kCoordinates).middleCols(3 * head.points.front(), 1);
     tools.statistics = with_components(tools.statistics, static_cast<int>(tools.basis.size()));
     return tools;
 }
@@ -132,12 +123,21 @@ void measure(EncodedStream& encoded, const Motion& motion, const StreamModel* mo
     encoded.account.rms_error_mm = std::sqrt(off.squaredNorm() / static_cast<double>(off.size() / 3));
 }
 
+// The header and the chunk HEAD.
+std::size_t bytes_without_basis(const Bytes& head) {
+    ByteReader reader(head);
+    read_via_header(reader, head, ViaKind::kStream);
+    read_via_chunk(reader, head);
+    return reader.offset();
+}
+
 EncodedStream written(const Motion& motion, const StreamTools& tools, const std::vector<CutSegment>& cuts,
                       const std::vector<SegmentVia>& segments, const std::vector<StreamPhone>& phones) {
     EncodedStream encoded;
     StreamAccount& account = encoded.account;
     encoded.bytes = write_stream_head(tools);
     account.head_bytes = encoded.bytes.size();
+    account.basis_bytes = account.head_bytes - bytes_without_basis(encoded.bytes);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const bool is_last = i + 1 == segments.size();
         const Bytes spoken =
@@ -161,13 +161,37 @@ EncodedStream written(const Motion& motion, const StreamTools& tools, const std:
 
 }  // namespace
 
+StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm) {
+    const std::vector<int> held = points_of(model.basis);
+    for (const int p : points) {
+        if (!std::binary_search(held.begin(), held.end(), p))
+            throw InputError(
+                "talker", model.name,
+                "a talker whose stream model holds the point " + std::string(point_name(p)) + ", or none");
+    }
+    const std::size_t table = model.table_for(max_error_mm);
+    const StreamStatistics& statistics = model.tables[table];
+    StreamTools tools;
+    StreamHead& head = tools.head;
+    head.talker = model.name;
+    head.model_identity = model.identity();
+    head.table = static_cast<int>(table);
+    head.shared_modes = statistics.components;
+    head.points = std::move(points);
+    head.bound_mm = stored_bound(max_error_mm);
+    head.step_mm =
+        static_cast<double>(static_cast<float>(statistics.step_mm / statistics.bound_mm * max_error_mm));
+    tools.basis = {model.basis.mean, model.basis.modes.leftCols(statistics.components)};
+    tools.statistics = statistics;
+    return tools;
+}
+
 EncodedStream encode_stream(const Motion& motion, const StreamModel* model, const StreamOptions& options,
                             const std::vector<StreamPhone>& phones) {
     check(motion, options);
     for (int ticks_per_s = kTicksPerSecond;; ticks_per_s *= 2) {
         const StreamTools tools = tools_for(motion, model, options, ticks_per_s);
-        const std::vector<CutSegment> cuts =
-            cut_motion(motion, tools.head.points, ticks_per_s, tools.head.longest_segment);
+        const std::vector<CutSegment> cuts = cut_motion(motion, tools.head);
         std::vector<SegmentVia> segments;
         try {
             segments = segments_of(motion, tools, cuts, options.rounds);
