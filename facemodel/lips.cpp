@@ -100,19 +100,22 @@ void keep_off_teeth(Nodes& rows, const TeethFront& teeth) {
     constexpr double kFrontHalf = 9, kFade = 6;  // mm from the middle: in full, then less and less
     constexpr double kHighest = 6;               // mm past the edge; what is farther was never beyond it
     constexpr double kEdgeFirst = 3;  // the other lip comes from beyond the edge and stops there rather
+    constexpr double kRound = 1.5;    // mm: within this of the edge its own lip is let over it
     for (int c = 0; c < kColumns; ++c) {
+        const bool other = upper_lip(c) != (teeth.side > 0);
         for (int r = kFirstRow; r < kRows; ++r) {
             auto node = rows.row(at(r, c));
             const double into = teeth.z(node.x()) - node.z();            // behind the front, mm
             const double over = teeth.side * (node.y() - teeth.edge_y);  // past the edge, mm
             if (into <= 0 || over <= 0) continue;
-            const bool other = upper_lip(c) != (teeth.side > 0);
             const double front = 1 - smooth((std::abs(node.x()) - kFrontHalf) / kFade);
-            if (other && into * kEdgeFirst > over && over < kHighest) {
-                node.y() -= teeth.side * front * over;
-            } else {
-                node.z() += front * into;
-            }
+            // Both ways out are blended, so that no lip jumps from the one to the other.
+            const double back = other ? (1 - smooth(over / (kEdgeFirst * into) - 0.5)) *
+                                            (1 - smooth((over - kHighest) / 2 + 1))
+                                      : 0;
+            const double forth = other ? 1 - back : smooth(over / kRound);
+            node.y() -= teeth.side * front * back * over;
+            node.z() += front * forth * into;
         }
     }
 }

@@ -155,7 +155,11 @@ Command add_say(CLI::App& program) {
     app->add_option("--roll", view.roll, "degrees counter-clockwise in the picture, -180 to 180");
     app->add_option("--background", options->background,
                     "#rrggbb, black, white, grey, green or blue; a soft grey when absent");
-    app->add_option("--seed", options->request.say.seed, "of the blinks, a whole number from 0")
+    app->add_option("--head-motion", options->request.say.head_motion,
+                    "degrees that the head turns by itself, 0 to 10; the eyes stay on the viewer")
+        ->capture_default_str();
+    app->add_option("--seed", options->request.say.seed,
+                    "of the blinks and the head's motion, a whole number from 0")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app->add_option("--labels", options->labels, "write words and phones as a Praat TextGrid");

@@ -34,7 +34,7 @@ Uploaded upload(const Face& face) {
     glBindBuffer(GL_ARRAY_BUFFER, uploaded.vertices);
     attribute(kPlaceAttribute, 3, sizeof(Vertex), offsetof(Vertex, place));
     attribute(kNormalAttribute, 3, sizeof(Vertex), offsetof(Vertex, normal));
-    attribute(kLightAttribute, 1, sizeof(Vertex), offsetof(Vertex, light));
+    attribute(kLightAttribute, 2, sizeof(Vertex), offsetof(Vertex, light));
     fill_buffer(make_buffer(), face.uvs.data(), face.uvs.size(), GL_STATIC_DRAW);
     attribute(kUvAttribute, 2, 2 * sizeof(float), 0);
     const NodesF rest = face.rest.cast<float>();

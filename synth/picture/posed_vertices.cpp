@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "synth/picture/key_shadow.hpp"
 #include "synth/picture/portrait.hpp"
 
 namespace viaface {
@@ -35,6 +36,7 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
       clip_from_head_(clip_from_head(view)),
       half_picture_(0.5f * view.width, 0.5f * view.height),
       places_(face.rest.rows(), 3),
+      key_(key_shares(face, view)),
       vertices_(face.rest.rows()),
       kept_vertices_(face.rest.rows()),
       pixels_(face.rest.rows()),
@@ -61,7 +63,8 @@ void PosedVertices::pose(const Nodes& posed) {
     for (Eigen::Index i = 0; i < places_.rows(); ++i) {
         vertices_[i] = {{places_(i, 0), places_(i, 1), places_(i, 2)},
                         {normals_(i, 0), normals_(i, 1), normals_(i, 2)},
-                        light_[i]};
+                        light_[i],
+                        key_[i]};
         const Eigen::Vector4f clip = clip_from_head_ * places_.row(i).transpose().homogeneous();
         pixels_[i] = ((clip.head<2>() / clip.w()).array() + 1)
                          .matrix()

@@ -14,6 +14,7 @@ struct Vertex {
     float place[3];   // mm, head frame
     float normal[3];  // unit
     float light;      // share of the outside light that gets here, 0 to 1
+    float key;        // share of the key light, 0 to 1
     bool operator==(const Vertex&) const = default;
 };
 
@@ -43,7 +44,7 @@ class PosedVertices {
     Eigen::Matrix4f clip_from_head_;
     Eigen::Vector2f half_picture_;
     NodesF places_, normals_;
-    std::vector<float> light_;
+    std::vector<float> light_, key_;
     std::vector<Vertex> vertices_, kept_vertices_;
     std::vector<Eigen::Vector2f> pixels_, kept_pixels_;
 };

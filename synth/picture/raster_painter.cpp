@@ -191,6 +191,7 @@ class RasterPainter : public Painter {
             Vector3f::Map(nodes_[i].normal) = turn * normal;
             Vector3f::Map(nodes_[i].tangent) = turn * along;
             nodes_[i].light = v.light;
+            nodes_[i].key = v.key;
         }
     }
 

@@ -31,9 +31,9 @@ struct alignas(16) Node {
     float normal[3];   // unit, world
     float tangent[3];  // across the normal, world
     float s, t;        // of the texture, from its upper left corner
-    float light;       // share of the outside light that gets here
+    float light, key;  // shares of the outside light and of the key light that get here
     float side;        // bitangent = side * normal x tangent
-    float unused[2];
+    float unused;
 };
 
 // Texels of 8 bytes: base R G B A, detail R G B A. A border of one texel goes round: sideways the texture

@@ -2,34 +2,24 @@
 // raster_kernel.cpp alone.
 #pragma once
 
-#include "synth/picture/raster_scene.hpp"
+#include "synth/picture/lights.hpp"
+#include "synth/picture/raster_fragments.hpp"
 #include "synth/picture/raster_wide.hpp"
 
 namespace viaface::raster::VIAFACE_KERNEL {
 namespace {
 
-struct Lit {
-    Three normal, tangent, to_camera;  // to_camera is unit
-    Wide side, light;
-    Three base;  // sRGB
-    Wide cover;  // occlusion, or the lashes' cover
-    Wide slope_x, slope_y, roughness, thinness;
-};
-
 struct Lights {
-    Three key = three(-0.492f, 0.555f, 0.671f), fill = three(0.768f, 0.144f, 0.624f),
-          rim = three(0.640f, 0.427f, -0.640f);
-    Three key_light = three(1.75f, 1.58f, 1.40f), fill_light = three(0.26f, 0.30f, 0.37f),
-          rim_light = three(1.0f, 1.05f, 1.2f);
+    Three key = three(lights::kKeyWay), fill = three(lights::kFillWay), rim = three(lights::kRimWay);
+    Three key_light = three(lights::kKey), fill_light = three(lights::kFill), rim_light = three(lights::kRim);
 };
 
 VIAFACE_INLINE Wide linear(Wide c) { return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f); }
 VIAFACE_INLINE Three linear(const Three& c) { return {linear(c.x), linear(c.y), linear(c.z)}; }
 
 VIAFACE_INLINE Three sky(Wide up) {
-    const Wide share = up * 0.5f + 0.5f;
-    return {share * (0.30f - 0.098f) + 0.098f, share * (0.32f - 0.080f) + 0.080f,
-            share * (0.37f - 0.075f) + 0.075f};
+    const Three ground = three(lights::kGround);
+    return ground + (three(lights::kSky) - ground) * (up * 0.5f + 0.5f);
 }
 
 // A lobe's height as a fraction, so that several cost one division.
@@ -66,6 +56,16 @@ VIAFACE_INLINE Three wrapped(Wide at, float red, float green, float blue) {
     return wrapped(Three{at, at, at}, red, green, blue);
 }
 
+// Light that is partly kept off comes back redder, after a way through flesh.
+VIAFACE_INLINE Three reddened(Wide open, float red, float green, float blue) {
+    return three(red, green, blue) * (open * (1.0f - open)) + open;
+}
+
+// A wet film's or an oily skin's answer to the key light, without the light.
+VIAFACE_INLINE Wide glossed(Lobe lobes, Wide vh, Wide nl) {
+    return lobes.over * fresnel(vh) * nl / (lobes.under * (4.0f * vh * vh + 0.1f));
+}
+
 VIAFACE_INLINE Three shade_skin(const Lit& f) {
     const Lights lights;
     const Three albedo = linear(f.base), smooth = unit(f.normal), n = bumped(f, smooth);
@@ -76,8 +76,9 @@ VIAFACE_INLINE Three shade_skin(const Lit& f) {
                                  0.27f, 0.15f, 0.09f);
     const Three at_fill = wrapped(dot(n, lights.fill), 0.27f, 0.15f, 0.09f);
     const Three at_rim = wrapped(dot(n, lights.rim), 1.6f * 0.27f, 1.6f * 0.15f, 1.6f * 0.09f);
-    const Three open = three(0.22f, 0.02f, -0.06f) * (occlusion * (1.0f - occlusion)) + occlusion;
-    const Three light = lights.key_light * at_key * f.light +
+    const Three open = reddened(occlusion, 0.18f, 0.02f, -0.05f);
+    const Three at_window = reddened(f.key, 0.20f, 0.02f, -0.04f) * f.light;
+    const Three light = lights.key_light * at_key * at_window +
                         (lights.fill_light * at_fill + lights.rim_light * at_rim * wide(0.75f) +
                          sky(smooth.y) * wide(1.25f)) *
                             open +
@@ -86,26 +87,26 @@ VIAFACE_INLINE Three shade_skin(const Lit& f) {
     const Wide nh = positive(dot(n, h)), vh = dot(f.to_camera, h), nl = positive(n_key);
     const Wide a = f.roughness * f.roughness;
     const Lobe broad = lobe(nh, a), narrow = lobe(nh, a * 0.4f);
-    const Wide lobes = 0.75f * broad.over * narrow.under + 0.25f * narrow.over * broad.under;
-    const Wide oil = lobes * fresnel(vh) * nl / (broad.under * narrow.under * (4.0f * vh * vh + 0.1f));
+    const Lobe both{0.75f * broad.over * narrow.under + 0.25f * narrow.over * broad.under,
+                    broad.under * narrow.under};
     const Wide grazing = 1.0f - positive(dot(n, f.to_camera)), g2 = grazing * grazing;
-    const Three gloss = (lights.key_light * oil + sky(n.y) * (0.02f + 0.22f * g2 * g2 * grazing)) * occlusion;
-    return albedo * light * wide(0.40f) + gloss;
+    const Three gloss = (lights.key_light * (glossed(both, vh, nl) * f.key * 1.1f) +
+                         sky(n.y) * (0.02f + 0.22f * g2 * g2 * grazing)) *
+                        occlusion;
+    return albedo * light * wide(0.43f) + gloss;
 }
 
 VIAFACE_INLINE Three shade_inside(const Lit& f) {
     const Lights lights;
-    const Three albedo = linear(f.base), n = unit(f.normal);
-    const Wide at_key = positive((dot(n, lights.key) + 0.4f) * (1 / 1.4f));
+    const Three albedo = linear(f.base), n = unit(f.normal), film_n = bumped(f, n);
     const Wide open = f.cover * (0.16f + 0.84f * f.light);
-    const Three light = lights.key_light * (at_key * 0.75f) +
+    const Three light = lights.key_light * (positive((dot(n, lights.key) + 0.4f) * (1 / 1.4f)) * 0.75f) +
                         lights.fill_light * positive(dot(n, lights.fill) + 0.3f) + sky(n.y) * wide(2.4f);
     const Three h = unit(lights.key + f.to_camera);
-    const Wide vh = dot(f.to_camera, h), nl = positive(dot(n, lights.key));
-    const Lobe film = lobe(positive(dot(n, h)), f.roughness * f.roughness);
-    const Wide wet = film.over * fresnel(vh) * nl / (film.under * (4.0f * vh * vh + 0.1f));
-    const Three deep = three(0.25f, 0.02f, 0.02f) * (open * (1.0f - open)) + open;
-    return albedo * light * deep * wide(0.42f) + lights.key_light * (wet * open * open * 0.9f);
+    const Lobe film = lobe(positive(dot(film_n, h)), f.roughness * f.roughness);
+    const Wide wet = glossed(film, dot(f.to_camera, h), positive(dot(film_n, lights.key)));
+    return albedo * light * reddened(open, 0.25f, 0.02f, 0.02f) * wide(0.42f) +
+           lights.key_light * (wet * open * open * 0.9f);
 }
 
 VIAFACE_INLINE Three shade_eye(const Lit& f) {
@@ -117,8 +118,8 @@ VIAFACE_INLINE Three shade_eye(const Lit& f) {
                         sky(ball.y) * wide(2.6f);
     const Three h = unit(lights.key + f.to_camera);
     const Wide reflected_y = 2.0f * dot(n, f.to_camera) * n.y - f.to_camera.y;
-    const Lobe glint = lobe(positive(dot(n, h)), wide(0.012f));
-    const Wide spot = lesser(glint.over * 0.03f / glint.under, wide(2.0f));
+    const Lobe glint = lobe(positive(dot(n, h)), wide(0.018f));
+    const Wide spot = lesser(glint.over * 0.05f / glint.under, wide(2.0f));
     return (albedo * light * wide(0.32f) + lights.key_light * spot + sky(reflected_y) * wide(0.10f)) *
            f.cover;
 }
@@ -126,7 +127,7 @@ VIAFACE_INLINE Three shade_eye(const Lit& f) {
 VIAFACE_INLINE Three shade_cloth(const Lit& f) {
     const Lights lights;
     const Three albedo = linear(f.base), n = unit(f.normal);
-    const Three light = lights.key_light * (positive(dot(n, lights.key)) * f.cover) +
+    const Three light = lights.key_light * (positive(dot(n, lights.key)) * f.cover * f.key) +
                         lights.fill_light * positive(dot(n, lights.fill)) + sky(n.y) * (f.cover * 2.2f);
     const Wide edge = 1.0f - positive(dot(n, f.to_camera));
     return albedo * light * (0.9f + 0.8f * edge * edge) +

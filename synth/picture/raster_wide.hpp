@@ -148,11 +148,16 @@ VIAFACE_INLINE void transpose(Four (&r)[4]) {
     r[3] = __builtin_shufflevector(c, d, 2, 3, 6, 7);
 }
 
+VIAFACE_INLINE Wide joined(Four low, Four high) {
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
 struct Three {
     Wide x, y, z;
 };
 
 VIAFACE_INLINE Three three(float x, float y, float z) { return {wide(x), wide(y), wide(z)}; }
+VIAFACE_INLINE Three three(const float (&v)[3]) { return three(v[0], v[1], v[2]); }
 VIAFACE_INLINE Three operator+(const Three& a, const Three& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 VIAFACE_INLINE Three operator-(const Three& a, const Three& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 VIAFACE_INLINE Three operator*(const Three& a, const Three& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }

@@ -3,9 +3,9 @@
 // H.-P. Duiker, "Filmic tonemapping for real-time rendering", SIGGRAPH 2010 course). Light that travels under
 // the skin is stood in for by diffuse light wrapped round per channel (S. Green, "Real-time approximations to
 // subsurface scattering", GPU Gems, 2004) on a smoother normal for red than for blue (W.-C. Ma et al., "Rapid
-// acquisition of specular and diffuse normal maps", EGSR 2007); two GGX lobes are its oil. Departure: no
-// light casts a shadow; what the head keeps off itself at rest is in the textures' occlusion, the rest in
-// MouthLight.
+// acquisition of specular and diffuse normal maps", EGSR 2007); two GGX lobes are its oil. Departures: the
+// key light alone casts a shadow, as key_shadow.hpp says; what the head keeps off itself of the rest is in
+// the textures' occlusion, and of the mouth in MouthLight.
 #pragma once
 
 #include <array>

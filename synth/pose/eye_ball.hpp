@@ -1,17 +1,29 @@
-// The eye's shape: a sphere with a cornea's bulge about the way it looks.
+// The eye's shape, a sphere with a cornea's bulge about the way it looks; and where eyes look.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace viaface {
+
+struct Gaze {
+    double left = 0, up = 0;  // degrees from straight ahead, to the talker's left and up
+
+    Eigen::Matrix3d turn() const {
+        constexpr double kRadians = std::numbers::pi / 180;
+        return (Eigen::AngleAxisd(left * kRadians, Eigen::Vector3d::UnitY()) *
+                Eigen::AngleAxisd(-up * kRadians, Eigen::Vector3d::UnitX()))
+            .toRotationMatrix();
+    }
+};
 
 struct EyeBall {
     static constexpr double kRadius = 15.3, kIrisRadius = 6.0, kCorneaRise = 1.2;  // mm
     Eigen::Vector3d centre;                                                        // mm
 
-    // angle: from straight ahead, radians.
+    // angle: from the way it looks, radians.
     static double radius_at(double angle) {
         const double edge = std::asin(kIrisRadius / kRadius);
         const double t = std::clamp(angle / (1.15 * edge), 0.0, 1.0);

@@ -31,6 +31,14 @@ constexpr std::array<Ring, MouthLining::kRings> kLiningRings = {{{0, 0, 0, 0, 0,
 
 double angle_of(int column) { return std::numbers::pi * (0.5 - 2.0 * column / MouthLining::kColumns); }
 
+// Behind parted lips the lining turns away from the opening, so that lips end in their own red.
+Vector3d turned_in(int ring, int column, double gap) {
+    constexpr double kStillShut = 0.8, kParted = 2.5, kAway = 1.3, kBack = 0.5;  // mm
+    if (ring != 1 && ring != 2) return Vector3d::Zero();
+    const double open = smooth((gap - kStillShut) / kParted);
+    return open * Vector3d(0, kAway * std::sin(angle_of(column)), -kBack);
+}
+
 Vector3d on_ring(const Ring& ring, int column) {
     const double x = ring.half_width * std::cos(angle_of(column)), s = std::sin(angle_of(column));
     return {x, (s > 0 ? ring.above : ring.below) * s, ring.z - ring.fall * x * x};
@@ -96,12 +104,12 @@ Nodes MouthLining::posed(const Nodes& rest, const Contour& inner, const JawMotio
     Nodes nodes = rest;
     for (int c = 0; c < kColumns; ++c) {
         const Vector3d edge = (inner.row(c) - rest.row(c)).transpose();
-        const double below = jaw_share(c);
+        const double below = jaw_share(c), gap = std::abs(inner(c, 1) - inner(facing_column(c), 1));
         for (int r = 0; r < kRings; ++r) {
             const double follow = kLiningRings[static_cast<std::size_t>(r)].follow;
             const Vector3d place = rest.row(r * kColumns + c);
-            nodes.row(r * kColumns + c) =
-                (place + follow * edge + (1 - follow) * below * (jaw(place) - place)).transpose();
+            const Vector3d ride = follow * edge + (1 - follow) * below * (jaw(place) - place);
+            nodes.row(r * kColumns + c) = (place + ride + turned_in(r, c, gap)).transpose();
         }
     }
     return nodes;

@@ -7,9 +7,18 @@
 namespace viaface {
 namespace {
 
-constexpr double kShutting = 1.12;      // the scan's lids stop 0.9 mm short of each other
+constexpr double kShuts = 1.12;         // the scan's lids stop 0.9 mm short of each other
+constexpr double kPast = 0.9;           // mm: how far the upper lid comes to lie over the lower one
 constexpr double kLidThickness = 0.35;  // mm
+constexpr double kLidOverLid = 0.45;    // mm: the upper one before the lower one, shut
 constexpr double kLidReach = 22;        // mm: farther nodes are no lid
+constexpr double kFollow = 0.02;        // of a blink per degree of the gaze downwards
+constexpr double kWidest = -0.2;        // of a blink
+
+double amount_of(double blink, const Gaze& gaze) {
+    const double follow = std::clamp(-kFollow * gaze.up, kWidest, 1.0);
+    return blink + (1 - blink) * follow;
+}
 
 }  // namespace
 
@@ -22,20 +31,27 @@ Lids::Lids(const Face& face, const std::string& shape_name, double side) : ball_
     }
     moves_.resize(static_cast<Eigen::Index>(nodes_.size()), 3);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-        moves_.row(static_cast<Eigen::Index>(k)) = kShutting * shape->delta.row(nodes_[k]);
+        const auto delta = shape->delta.row(nodes_[k]);
+        auto move = moves_.row(static_cast<Eigen::Index>(k));
+        move = kShuts * delta;
+        if (delta.y() < 0) move += kPast * std::min(1.0, delta.norm() / kPast) * delta.normalized();
         rest_radius_.push_back((face.rest.row(nodes_[k]).transpose() - ball_.centre).norm());
     }
 }
 
-void Lids::shut(Nodes& mesh, double amount) const {
-    if (amount == 0) return;
+void Lids::pose(Nodes& mesh, double blink, const Gaze& gaze) const {
+    const double amount = amount_of(blink, gaze);
+    if (amount == 0 && gaze.left == 0) return;
+    const Eigen::Vector3d ahead = gaze.turn().col(2);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
         auto node = mesh.row(nodes_[k]);
-        node += amount * moves_.row(static_cast<Eigen::Index>(k));
+        const auto move = moves_.row(static_cast<Eigen::Index>(k));
+        node += amount * move;
         if (rest_radius_[k] < EyeBall::kRadius || rest_radius_[k] > kLidReach) continue;
         const Eigen::Vector3d from = node.transpose() - ball_.centre;
-        const double angle = std::acos(std::clamp(from.z() / from.norm(), -1.0, 1.0));
-        const double least = EyeBall::radius_at(angle) + kLidThickness;
+        const double angle = std::acos(std::clamp(from.dot(ahead) / from.norm(), -1.0, 1.0));
+        const double over = move.y() < 0 ? kLidOverLid * std::max(amount, 0.0) : 0;
+        const double least = EyeBall::radius_at(angle) + kLidThickness + over;
         if (from.norm() < least) node = (ball_.centre + from * (least / from.norm())).transpose();
     }
 }

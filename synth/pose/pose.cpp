@@ -44,6 +44,8 @@ struct Poser::Parts {
           contours(face.rest, face.lips, training),
           left_lids(face, "eyeBlink_L", +1),
           right_lids(face, "eyeBlink_R", -1),
+          left_eye(part_named(face, "eye_left")),
+          right_eye(part_named(face, "eye_right")),
           upper(teeth_front(face.rest, part_named(face, "teeth_upper"), +1)),
           lower(teeth_front(face.rest, part_named(face, "teeth_lower"), -1)),
           mouth(part_named(face, "mouth")),
@@ -88,15 +90,27 @@ struct Poser::Parts {
         }
     }
 
-    void pose_skin(const FacePose& pose, const Blink& blink, Nodes& nodes) const {
+    void pose_skin(const FacePose& pose, Nodes& nodes) const {
         const Eigen::VectorXf alpha = pose.coefficients.cast<float>();
         for (const Block& block : blocks) {
             const Eigen::VectorXf placed = block.mean + block.modes * alpha;
             Eigen::Map<Eigen::VectorXd>(nodes.data() + 3 * block.first_node, 3 * block.nodes) =
                 placed.cast<double>();
         }
-        left_lids.shut(nodes, blink.left);
-        right_lids.shut(nodes, blink.right);
+    }
+
+    void pose_eyes(const Blink& blink, const Gaze& gaze, Nodes& nodes) const {
+        left_lids.pose(nodes, blink.left, gaze);
+        right_lids.pose(nodes, blink.right, gaze);
+        if (gaze.left == 0 && gaze.up == 0) return;
+        const Eigen::Matrix3d turn = gaze.turn();
+        for (const auto& [part, side] : {std::pair{&left_eye, +1.0}, std::pair{&right_eye, -1.0}}) {
+            const Eigen::RowVector3d centre = eye_ball(side).centre.transpose();
+            auto ball = nodes.middleRows(part->first_node, part->nodes);
+            ball = ((rest.middleRows(part->first_node, part->nodes).rowwise() - centre) * turn.transpose())
+                       .rowwise() +
+                   centre;
+        }
     }
 
     LipContours lip_contours(const Configuration& c, const Nodes& skin) const {
@@ -131,6 +145,7 @@ struct Poser::Parts {
     EstimatorFor coefficients;
     LipEstimator contours;
     Lids left_lids, right_lids;
+    FacePart left_eye, right_eye;
     TeethFront upper, lower;  // at rest
     FacePart mouth, tongue;
     std::vector<FacePart> on_jaw;
@@ -163,15 +178,16 @@ FacePose Poser::face_pose(const Configuration& complete) const {
 
 LipShape Poser::lip_shape(const Configuration& complete, const FacePose& pose) const {
     Nodes nodes = parts_->rest;
-    parts_->pose_skin(pose, {}, nodes);
+    parts_->pose_skin(pose, nodes);
     return {parts_->lip_contours(complete, nodes)};
 }
 
-Nodes Poser::posed(const Configuration& points, const Blink& blink) const {
+Nodes Poser::posed(const Configuration& points, const Blink& blink, const Gaze& gaze) const {
     const Parts& parts = *parts_;
     const Configuration c = completed(points);
     Nodes nodes = parts.rest;
-    parts.pose_skin(face_pose(c), blink, nodes);
+    parts.pose_skin(face_pose(c), nodes);
+    parts.pose_eyes(blink, gaze, nodes);
     const JawMotion jaw =
         jaw_motion(parts.hinge, point_of(parts.rest_points, kLowerIncisor), point_of(c, kLowerIncisor));
     Nodes rows = lip_rows(parts.lip_contours(c, nodes));

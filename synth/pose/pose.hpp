@@ -12,6 +12,7 @@
 
 #include "facemodel/estimator.hpp"
 #include "facemodel/face.hpp"
+#include "synth/pose/eye_ball.hpp"
 #include "synth/pose/inside.hpp"
 #include "synth/pose/training.hpp"
 
@@ -43,7 +44,7 @@ class Poser {
     LipShape lip_shape(const Configuration& complete, const FacePose& pose) const;
 
     // [nodes of the face x 3], mm, head frame. points: NaN where missing.
-    Nodes posed(const Configuration& points, const Blink& blink = {}) const;
+    Nodes posed(const Configuration& points, const Blink& blink = {}, const Gaze& gaze = {}) const;
 
     // The points as drawn, read off a posed mesh.
     Configuration drawn_points(const Nodes& posed) const;

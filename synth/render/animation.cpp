@@ -10,14 +10,25 @@ Animation::Animation(const Talker& talker, const View& view, FrameRate fps, Film
       film_(film),
       fps_(fps),
       onlooker_(std::move(onlooker)),
-      portrait_(talker.face, view, drawing) {}
+      portrait_(talker.face, view, drawing),
+      neck_(talker.face) {}
 
 void Animation::draw(const Configuration& commanded, const Blink& blink, const Eigen::Isometry3d& head) {
-    Nodes posed = talker_.poser.posed(commanded, blink);
+    const Nodes posed = talker_.poser.posed(commanded, blink);
+    if (head.isApprox(Eigen::Isometry3d::Identity())) return add(commanded, posed, posed);
+    add(commanded, posed, (posed * head.linear().transpose()).rowwise() + head.translation().transpose());
+}
+
+void Animation::draw(const Configuration& commanded, const Blink& blink, const HeadTurn& turn) {
+    const Nodes posed = talker_.poser.posed(commanded, blink, {-turn.left, -turn.up});
+    Nodes shown = posed;
+    neck_.turn(shown, turn);
+    add(commanded, posed, shown);
+}
+
+void Animation::add(const Configuration& commanded, const Nodes& posed, const Nodes& shown) {
     const DrawnFrame frame{frames_, time_of(frames_), commanded, talker_.poser.drawn_points(posed)};
-    if (!head.isApprox(Eigen::Isometry3d::Identity()))
-        posed = ((posed * head.linear().transpose()).rowwise() + head.translation().transpose()).eval();
-    film_.add_frame(portrait_.draw(posed));
+    film_.add_frame(portrait_.draw(shown));
     compare(frame);
     motion_hash_ =
         fnv1a({reinterpret_cast<const std::uint8_t*>(commanded.data()), kCoordinates * sizeof(double)},

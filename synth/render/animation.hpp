@@ -9,6 +9,7 @@
 #include "base/bytes.hpp"
 #include "synth/film/film_writer.hpp"
 #include "synth/picture/portrait.hpp"
+#include "synth/pose/head_sway.hpp"
 #include "synth/talker/talker.hpp"
 
 namespace viaface {
@@ -27,9 +28,11 @@ class Animation {
     Animation(const Talker& talker, const View& view, FrameRate fps, FilmWriter& film,
               std::function<void(const DrawnFrame&)> onlooker, const Drawing& drawing = {});
 
-    // head: where the head has gone from its place in the view, mm.
+    // head: where head and shoulders have gone from their place in the view, mm.
     void draw(const Configuration& commanded, const Blink& blink,
               const Eigen::Isometry3d& head = Eigen::Isometry3d::Identity());
+    // turn: of the head on its neck, while the eyes stay on the viewer.
+    void draw(const Configuration& commanded, const Blink& blink, const HeadTurn& turn);
 
     std::int64_t frames() const { return frames_; }
     double time_of(std::int64_t frame) const {
@@ -42,6 +45,7 @@ class Animation {
     std::uint64_t motion_hash() const { return motion_hash_; }  // FNV-1a of the commanded configurations
 
   private:
+    void add(const Configuration& commanded, const Nodes& posed, const Nodes& shown);
     void compare(const DrawnFrame& frame);
 
     const Talker& talker_;
@@ -49,6 +53,7 @@ class Animation {
     FrameRate fps_;
     std::function<void(const DrawnFrame&)> onlooker_;
     Portrait portrait_;
+    Neck neck_;
     std::int64_t frames_ = 0, compared_ = 0;
     double squares_ = 0, farthest_ = 0;
     std::uint64_t motion_hash_ = 0;

@@ -2,6 +2,7 @@
 
 #include "base/bytes.hpp"
 #include "synth/pose/blinks.hpp"
+#include "synth/pose/head_sway.hpp"
 
 namespace viaface {
 namespace {
@@ -18,7 +19,8 @@ class Performance {
           film_(film),
           onlookers_(onlookers),
           animation_(talker, request.view, request.fps, film, onlookers.frame),
-          blinks_(request.seed) {}
+          blinks_(request.seed),
+          head_sway_(request.head_motion, request.seed) {}
 
     void perform(const Recital& recital) {
         const Waveform& sound = recital.utterance.sound;
@@ -52,8 +54,8 @@ class Performance {
         }
         const RowMatrix commanded = recital.motion.at(times);
         for (Eigen::Index row = 0; row < commanded.rows(); ++row) {
-            const double shut = blinks_.amount(animation_.time_of(animation_.frames()));
-            animation_.draw(commanded.row(row).transpose(), {shut, shut});
+            const double time_s = animation_.time_of(animation_.frames()), shut = blinks_.amount(time_s);
+            animation_.draw(commanded.row(row).transpose(), {shut, shut}, head_sway_.at(time_s));
         }
     }
 
@@ -62,6 +64,7 @@ class Performance {
     const Onlookers& onlookers_;
     Animation animation_;
     BlinkSchedule blinks_;
+    HeadSway head_sway_;
     SayReport report_;
 };
 

@@ -20,7 +20,8 @@ struct SayRequest {
     SpeechRequest speech;
     View view;
     FrameRate fps;
-    std::uint64_t seed = 1;  // of the blinks
+    std::uint64_t seed = 1;  // of the blinks and of the head's motion
+    double head_motion = 0;  // degrees, 0 to HeadSway::kWidest: how far the head turns by itself
 };
 
 // Who looks on; empty ones are not called. All are called from the thread that calls say().

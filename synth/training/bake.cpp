@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 using PaintAt = std::function<Paint(const Texel&, float open)>;
 using HeightAt = std::function<float(const Vector3f&)>;
 
-constexpr int kSpread = 6;  // texels
+constexpr int kSpread = 24;  // texels: smaller mip levels mix so many
 
 std::uint8_t byte(float share) { return static_cast<std::uint8_t>(clamp01(share) * 255 + 0.5f); }
 
@@ -102,7 +102,7 @@ std::vector<Recipe> recipes(const Face& face, const SkinPaint& skin, const EyeLi
     const PaintAt eye = [&](const Texel& t, float) {
         return eye_paint(t, apex(face, face.parts[t.part]), lids);
     };
-    return {{Material::kSkin, 1024, skin_paint, skin_height},
+    return {{Material::kSkin, 1536, skin_paint, skin_height},
             {Material::kLips, 512, skin_paint, skin_height},
             {Material::kEye, 512, eye, nullptr},
             {Material::kTeeth, 256, [](const Texel& t, float) { return teeth_paint(t); }, nullptr},

@@ -30,9 +30,9 @@ class SkinPaint {
     struct Brow {
         float along, above, out;  // 0 inner to 1 outer end; mm; mm
     };
-    float lip_depth(const Eigen::Vector3f& place) const;   // mm into the red of the lips, < 0 outside
-    float hair_depth(const Eigen::Vector3f& place) const;  // mm behind the hairline, < 0 in front
+    float lip_depth(const Eigen::Vector3f& place) const;  // mm into the red of the lips, < 0 outside
     float lid_distance(const Eigen::Vector3f& place) const;
+    float upper_lash_line(const Eigen::Vector3f& place) const;
     Brow brow(const Eigen::Vector3f& place) const;
     float near(int landmark, const Eigen::Vector3f& offset, const Eigen::Vector3f& place, float radius) const;
     Eigen::Vector3f complexion(const Eigen::Vector3f& place) const;

@@ -50,8 +50,9 @@ struct Hair {
 Hair hair(int index, int count) {
     const float spread = 0.5f * (lattice(index, 1, 0) - 0.5f);
     const float root = (index + 0.5f + spread) / count;
-    return {root, 0.10f * (root - 0.42f) + 0.022f * (lattice(index, 2, 0) - 0.5f),
-            0.62f + 0.38f * lattice(index, 3, 0), 0.0046f + 0.0016f * lattice(index, 4, 0)};
+    const float clump = 0.03f * (lattice(index / 3, 5, 0) - 0.5f);  // neighbours lean together
+    return {root, 0.12f * (root - 0.42f) + clump + 0.012f * (lattice(index, 2, 0) - 0.5f),
+            0.55f + 0.45f * lattice(index, 3, 0), 0.0050f + 0.0016f * lattice(index, 4, 0)};
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ Paint eye_paint(const Texel& texel, const Vector3f& apex, const EyeLids& lids) {
     const float along = (p.x() - lids[0].x()) / (lids[3].x() - lids[0].x());  // 0 inner to 1 outer corner
     const float corners = std::max(smooth_step(0.34f, 0.04f, along), smooth_step(0.74f, 1.0f, along));
     Vector3f white =
-        white_of_eye(p, out).cwiseProduct(mix(Vector3f::Ones(), Vector3f(0.66f, 0.50f, 0.48f), corners));
+        white_of_eye(p, out).cwiseProduct(mix(Vector3f::Ones(), Vector3f(0.80f, 0.64f, 0.60f), corners));
     white = mix(white, linear_from_srgb(188, 112, 104), smooth_step(5.2f, 3.4f, (p - lids[0]).norm()));
     colour = mix(colour, white, smooth_step(kIris - 0.45f, kIris + 0.65f, out));
     const float below_upper = height_through(lids[0], lids[1], lids[2], lids[3], p.x()) - p.y(),
@@ -89,13 +90,15 @@ Paint teeth_paint(const Texel& texel) {
     const Vector3f& p = texel.place;
     const Vector3f crown = linear_from_srgb(228, 218, 198), neck = linear_from_srgb(210, 186, 148);
     const float strip = texel.u * kCrowns, aside = std::abs(strip - std::floor(strip) - 0.5f) / 0.36f;
-    const float edge = smooth_step(0.80f, 0.97f, texel.v) + 0.5f * smooth_step(0.6f, 1.0f, aside);
+    const float incisors = smooth_step(-16, -9, p.z());  // whose edges are thin enough to let light through
+    const float edge =
+        (0.8f * smooth_step(0.84f, 0.99f, texel.v) + 0.2f * smooth_step(0.7f, 1.0f, aside)) * incisors;
     Vector3f colour = mix(neck, crown, smooth_step(0.05f, 0.5f, texel.v)) * (0.96f + 0.06f * noise(p * 0.5f));
-    colour = mix(colour, linear_from_srgb(182, 184, 182), 0.6f * clamp01(edge));
+    colour = mix(colour, linear_from_srgb(196, 196, 192), 0.5f * clamp01(edge));
     Paint paint{colour, 0.24f};
     paint.open = mix(0.55f, 1.0f, smooth_step(0.0f, 0.3f, texel.v)) *
-                 mix(1.0f, 0.45f, smooth_step(-14, -45, p.z())) *
-                 mix(1.0f, 0.72f, smooth_step(0.86f, 1.0f, aside));
+                 mix(1.0f, 0.42f, smooth_step(-11, -36, p.z())) *
+                 mix(1.0f, 0.75f, smooth_step(0.88f, 1.0f, aside));
     return paint;
 }
 
@@ -108,23 +111,27 @@ Paint gums_paint(const Texel& texel) {
 Paint tongue_paint(const Texel& texel) {
     const Vector3f& p = texel.place;
     const Vector3f edge = linear_from_srgb(206, 112, 108), top = linear_from_srgb(212, 134, 126);
-    const float coat = smooth_step(14, 4, std::abs(p.x())) * smooth_step(-14, -34, p.z());
-    Vector3f colour = mix(edge, top, coat) * (0.86f + 0.24f * fractal(p * 0.5f));
-    colour *= 1 - 0.14f * smooth_step(1.6f, 0.2f, std::abs(p.x())) * smooth_step(-16, -24, p.z());
-    return {colour, 0.40f};
+    const float patchy = 0.6f + 0.8f * fractal(p * 0.22f);
+    const float coat = smooth_step(17, 3, std::abs(p.x())) * smooth_step(-12, -40, p.z()) * patchy;
+    const float buds = smooth_step(0.55f, 0.8f, noise(p * 1.3f));
+    Vector3f colour =
+        mix(edge, top, 0.75f * clamp01(coat)) * (0.84f + 0.24f * fractal(p * 0.5f) + 0.10f * buds);
+    colour *= 1 - 0.10f * smooth_step(2.6f, 0.2f, std::abs(p.x() + noise(p * 0.2f) - 0.5f)) *
+                      smooth_step(-14, -30, p.z());
+    return {colour, 0.30f};
 }
 
 Paint lining_paint(const Texel& texel) {
-    const Vector3f colour = linear_from_srgb(158, 72, 68) * (0.82f + 0.3f * fractal(texel.place * 0.2f));
+    const Vector3f colour = linear_from_srgb(176, 84, 80) * (0.82f + 0.3f * fractal(texel.place * 0.2f));
     return {colour, 0.34f, 0, 1, mix(1.0f, 0.7f, smooth_step(-20, -70, texel.place.z()))};
 }
 
 Paint lash_paint(const Texel& texel) {
-    constexpr int kHairs = 56;
+    constexpr int kHairs = 72;
     constexpr float kEdge = 0.0016f;  // of u: half a texel's softness
-    const float ends = smooth_step(0, 0.12f, texel.u) * smooth_step(1, 0.92f, texel.u);
+    const float ends = smooth_step(0, 0.12f, texel.u) * smooth_step(1, 0.86f, texel.u);
     const float rooted = smooth_step(0, 0.3f, texel.u) * smooth_step(1, 0.8f, texel.u);
-    float cover = 0.3f * rooted * smooth_step(0.10f, 0.0f, texel.v);  // roots close together
+    float cover = 0.6f * rooted * smooth_step(0.16f, 0.02f, texel.v);  // roots close together
     for (int i = 0; i < kHairs; ++i) {
         const auto [root, lean, reach, width] = hair(i, kHairs);
         if (texel.v > reach) continue;
@@ -141,7 +148,7 @@ Paint cloth_paint(const Vector3f& place) {
 }
 
 float tongue_height(const Vector3f& place) {
-    return 0.22f * noise(place * 0.9f) + 0.1f * noise(place * 1.7f);
+    return 0.35f * noise(place * 0.7f) + 0.22f * noise(place * 1.5f);
 }
 
 }  // namespace viaface

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "synth/training/bake_paint.hpp"
+#include "synth/training/hairline.hpp"
 
 namespace viaface {
 namespace {
@@ -10,31 +11,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-// The hairline seen from above the middle of the skull: height over the azimuth from straight ahead.
-struct HairlinePoint {
-    float azimuth, height;  // degrees, mm
-};
-constexpr HairlinePoint kHairline[] = {{0, 134},  {12, 135}, {24, 137},  {34, 133},  {42, 121}, {49, 106},
-                                       {57, 93},  {64, 78},  {70, 60},   {75, 54},   {80, 70},  {92, 88},
-                                       {104, 76}, {116, 26}, {128, -12}, {145, -24}, {180, -28}};
-const Vector3f kSkullMiddle(0, 0, -106);
 constexpr float kCollarSlope = 0.33f, kCollarHeight = -112.6f;  // the collar: y + slope * z = height, mm
-
-float between_points(float azimuth) {
-    const auto* after = std::ranges::find_if(kHairline, [&](const auto& p) { return p.azimuth >= azimuth; });
-    if (after == std::begin(kHairline)) return after->height;
-    const auto* before = after - 1;
-    return mix(before->height, after->height,
-               (azimuth - before->azimuth) / (after->azimuth - before->azimuth));
-}
-
-// Rounded over `half` degrees to either side.
-float hairline_height(float azimuth) {
-    constexpr float half = 5;
-    float sum = 0;
-    for (int k = -2; k <= 2; ++k) sum += between_points(std::clamp(azimuth + k * half / 2, 0.0f, 180.0f));
-    return sum / 5;
-}
 
 struct NearSegment {
     float distance, along;
@@ -72,20 +49,6 @@ float SkinPaint::lip_depth(const Vector3f& p) const {
     return inside && nearest < 25 ? nearest : -nearest;
 }
 
-float SkinPaint::hair_depth(const Vector3f& p) const {
-    const Vector3f d = p - kSkullMiddle;
-    const float radius = std::hypot(d.x(), d.z());
-    const float azimuth = std::atan2(std::abs(d.x()), d.z()) * 57.29578f;
-    const float line = hairline_height(azimuth);
-    const float slope =
-        (hairline_height(std::min(azimuth + 4, 180.0f)) - hairline_height(std::max(azimuth - 4, 0.0f))) /
-        std::max(radius * 0.1396f, 4.0f);
-    const float ragged = 8 * (fractal(p * 0.09f, 2) - 0.5f) + 3 * (noise(p * 0.35f) - 0.5f);
-    float depth = (p.y() - line) / std::sqrt(1 + slope * slope) + ragged;
-    const float ear = smooth_step(76, 80, std::abs(p.x())) * smooth_step(88, 76, p.y());
-    return mix(depth, -20, ear);
-}
-
 float SkinPaint::lid_distance(const Vector3f& p) const {
     float nearest = 1e9f;
     for (int eye = 36; eye <= 42; eye += 6) {
@@ -94,6 +57,16 @@ float SkinPaint::lid_distance(const Vector3f& p) const {
         }
     }
     return nearest;
+}
+
+// The roots of the upper lashes, seen as one line.
+float SkinPaint::upper_lash_line(const Vector3f& p) const {
+    float nearest = 1e9f;
+    for (const int first : {36, 42}) {
+        for (int k = 0; k < 3; ++k)
+            nearest = std::min(nearest, to_segment(p, marks_[first + k], marks_[first + k + 1]).distance);
+    }
+    return smooth_step(1.5f, 0.4f, nearest);
 }
 
 SkinPaint::Brow SkinPaint::brow(const Vector3f& p) const {
@@ -121,7 +94,7 @@ float SkinPaint::near(int landmark, const Vector3f& offset, const Vector3f& p, f
 Vector3f SkinPaint::complexion(const Vector3f& p) const {
     const float broad = fractal(p * 0.055f), fine = fractal(p * 0.27f + Vector3f::Constant(3)),
                 grain = noise(p * 1.1f);
-    Vector3f colour = linear_from_srgb(206, 160, 140) * (0.87f + 0.15f * broad + 0.13f * fine);
+    Vector3f colour = linear_from_srgb(210, 162, 141) * (0.87f + 0.15f * broad + 0.13f * fine);
     colour = tinted(colour, {1.04f, 0.89f, 0.86f}, smooth_step(0.45f, 0.75f, fine) * 0.8f) *
              (0.96f + 0.07f * grain);
     const float cheeks = near(54, {21, 35, -19}, p, 24) + near(48, {-21, 35, -19}, p, 24);
@@ -181,8 +154,8 @@ float SkinPaint::nostril(const Vector3f& p, float open) const {
         const Vector3f middle = (marks_[33 + side] + marks_[33 + 2 * side]) / 2 + Vector3f(0, 4, -5);
         inside = std::max(inside, smooth_step(11.5f, 8, (p - middle).norm()));
     }
-    const float off_columella = smooth_step(2.0f, 4.0f, std::abs(p.x() - marks_[33].x()));
-    return inside * off_columella * smooth_step(0.56f, 0.36f, open);
+    const float off_columella = smooth_step(3.2f, 5.2f, std::abs(p.x() - marks_[33].x()));
+    return inside * off_columella * smooth_step(0.60f, 0.30f, open);
 }
 
 Paint SkinPaint::at(const Texel& texel, float open) const {
@@ -200,21 +173,28 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
                          (0.88f + 0.26f * fractal(p.cwiseProduct(Vector3f(0.9f, 0.25f, 0.4f))));
     colour = mix(colour, red, 0.85f * lips);
     const float behind = hair_depth(p), tips = noise(p.cwiseProduct(Vector3f(1.5f, 1.0f, 1.5f)));
+    const float tuft = noise(p.cwiseProduct(Vector3f(0.62f, 0.30f, 0.42f)));
     const float stipple = smooth_step(0.2f, 0.7f, noise(p * 1.7f) * 0.6f + 0.4f * tips);
     const float hair =
-        smooth_step(-9, 17, behind) * mix(0.76f + 0.24f * stipple, 1, smooth_step(2, 24, behind));
-    const Vector3f hair_colour = linear_from_srgb(44, 32, 25);
-    colour = mix(colour, hair_colour * (0.55f + 0.8f * tips), 0.94f * hair);
+        smooth_step(-9, 17, behind) * mix(0.62f + 0.38f * stipple, 1, smooth_step(6, 30, behind));
+    const Vector3f hair_colour = linear_from_srgb(46, 33, 25);
+    const float strands = (0.25f + 1.3f * tips * stipple) * (0.6f + 0.8f * tuft);
+    colour = mix(colour, hair_colour * (0.35f + strands), 0.94f * hair);
     colour = mix(colour, hair_colour * 0.85f, 0.93f * clamp01(brow_cover(p)));
+    colour = mix(colour, hair_colour * 0.6f, 0.55f * upper_lash_line(p));
     const float dark = nostril(p, open);
-    colour = mix(colour, linear_from_srgb(26, 13, 10), 0.96f * dark);
+    colour = mix(colour, linear_from_srgb(58, 24, 18), 0.9f * dark);
     const float shine =
         clamp01(near(30, {0, 0, 0}, p, 14) + smooth_step(105, 125, p.y()) * smooth_step(-50, -20, p.z()));
     const float matt = near(39, {1, -9, 4}, p, 13) + near(42, {-1, -9, 4}, p, 13);
-    Paint paint{colour, mix(mix(0.55f, 0.46f, shine), 0.68f, clamp01(matt))};
-    paint.roughness = mix(paint.roughness, 0.36f, lips);
-    paint.roughness = mix(paint.roughness, 0.72f, std::max(hair, 0.4f * beard));
-    paint.open = (1 - 0.9f * dark) * (1 - 0.35f * hair);
+    Paint paint{colour, mix(mix(0.55f, 0.49f, shine), 0.66f, clamp01(matt))};
+    paint.roughness = mix(paint.roughness, 0.32f, lips);
+    const float corners = clamp01(near(48, {0, 0, 0}, p, 7) + near(54, {0, 0, 0}, p, 7));
+    paint.roughness = mix(paint.roughness, 0.6f, corners);
+    paint.roughness = mix(paint.roughness, 0.62f, std::max(hair, 0.4f * beard));
+    paint.open = (1 - 0.5f * dark) * (1 - 0.3f * hair);
+    // Lids are thin and wet: their edges never go black.
+    if (lid_distance(p) < 3) paint.open *= std::max(1.0f, 0.6f / std::max(open, 0.05f));
     const float ear =
         smooth_step(76, 86, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(0, 20, p.y());
     paint.thinness =
@@ -231,7 +211,8 @@ float SkinPaint::height(const Vector3f& p) const {
     const float lips = smooth_step(-0.5f, 1.5f, lip_depth(p)), hair = smooth_step(-3, 10, hair_depth(p));
     const float pores = 0.11f * noise(p * 0.45f) + 0.055f * noise(p * 0.95f);
     const float creases = 0.32f * noise(p.cwiseProduct(Vector3f(0.95f, 0.16f, 0.25f)));
-    return mix(mix(pores, creases, lips), 0.3f * noise(p * 0.8f) + 0.2f * noise(p * 1.4f), hair);
+    return mix(mix(pores, creases, lips),
+               0.5f * noise(p.cwiseProduct(Vector3f(0.8f, 0.5f, 0.6f))) + 0.35f * noise(p * 1.4f), hair);
 }
 
 }  // namespace viaface

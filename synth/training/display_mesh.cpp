@@ -1,23 +1,25 @@
 #include "synth/training/display_mesh.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "synth/training/display_curves.hpp"
 
 namespace viaface {
 namespace {
 
 constexpr int kColumns = LipGrid::kColumns;
-constexpr int kRingNodes = 132, kLidNodes = 40, kBottomNodes = 36;
+constexpr int kRingNodes = 132, kBottomNodes = 36;
 constexpr std::uint64_t kSeed = 1998;
 
-using Curve = std::vector<Anchor>;
 using Landmarks = std::initializer_list<int>;  // of the 68
 
 // Inner to outer corner, then back.
 constexpr Landmarks kLeftUpperLid = {42, 43, 44, 45}, kLeftLowerLid = {45, 46, 47, 42},
                     kRightUpperLid = {39, 38, 37, 36}, kRightLowerLid = {36, 41, 40, 39};
+constexpr Landmarks kLipBorder = {51, 52, 53, 54, 55, 56, 57, 58, 59, 48, 49, 50},
+                    kLipInner = {62, 63, 64, 65, 66, 67, 60, 61}, kUnderNose = {31, 32, 33, 34, 35};
 
 void append(Curve& to, const Curve& more) { to.insert(to.end(), more.begin(), more.end()); }
 
@@ -35,146 +37,10 @@ std::vector<Triangle> triangles_of(const ObjScan& scan, const std::string& mater
     return triangles;
 }
 
-Curve loop_curve(const Loop& loop) {
-    Curve curve;
-    for (const int node : loop) curve.push_back({{node, node, node}, {1, 0, 0}});
-    curve.push_back(curve.front());
-    return curve;
-}
-
-Anchor between(const Anchor& a, const Anchor& b, double t) {
-    return {{a.nodes[0], b.nodes[0], a.nodes[0]}, {1 - t, t, 0}};
-}
-
-// Places at equal steps of arc along a closed chain of scan nodes, half a step off its start.
-Curve resample_loop(const Loop& loop, const Nodes& scan, int count) {
-    const Curve chain = loop_curve(loop);
-    std::vector<double> arc(chain.size(), 0);
-    for (std::size_t k = 1; k < chain.size(); ++k) {
-        arc[k] = arc[k - 1] + (chain[k].at(scan) - chain[k - 1].at(scan)).norm();
-    }
-    Curve places;
-    for (int i = 0; i < count; ++i) {
-        const double wanted = arc.back() * (i + 0.5) / count;
-        const auto k =
-            static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), wanted) - arc.begin());
-        places.push_back(between(chain[k - 1], chain[k], (wanted - arc[k - 1]) / (arc[k] - arc[k - 1])));
-    }
-    return places;
-}
-
-// A natural cubic spline through places of the chart, over their distance in space; `fine` places each span.
-std::vector<Vector2d> spline_through(const std::vector<Vector2d>& places, const std::vector<double>& knots) {
-    constexpr int kFine = 60;
-    const auto n = static_cast<Eigen::Index>(places.size());
-    Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n);
-    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(n, 2);
-    const auto step = [&](Eigen::Index k) {
-        return knots[static_cast<std::size_t>(k + 1)] - knots[static_cast<std::size_t>(k)];
-    };
-    const auto place = [&](Eigen::Index k) { return places[static_cast<std::size_t>(k)]; };
-    for (Eigen::Index k = 1; k + 1 < n; ++k) {
-        system(k, k - 1) = step(k - 1);
-        system(k, k) = 2 * (step(k - 1) + step(k));
-        system(k, k + 1) = step(k);
-        right.row(k) =
-            6 * ((place(k + 1) - place(k)) / step(k) - (place(k) - place(k - 1)) / step(k - 1)).transpose();
-    }
-    const Eigen::MatrixX2d bend = system.partialPivLu().solve(right);
-    std::vector<Vector2d> fine;
-    for (Eigen::Index k = 0; k + 1 < n; ++k) {
-        const double h = step(k);
-        for (int i = 0; i < kFine; ++i) {
-            const double t = static_cast<double>(i) / kFine, s = 1 - t;
-            fine.push_back(
-                s * place(k) + t * place(k + 1) +
-                h * h / 6 * ((s * s * s - s) * bend.row(k) + (t * t * t - t) * bend.row(k + 1)).transpose());
-        }
-    }
-    fine.push_back(places.back());
-    return fine;
-}
-
-std::vector<double> arcs(const std::vector<Vector3d>& places) {
-    std::vector<double> arc(places.size(), 0);
-    for (std::size_t k = 1; k < places.size(); ++k) arc[k] = arc[k - 1] + (places[k] - places[k - 1]).norm();
-    return arc;
-}
-
-// `count` places at equal steps of arc in space along a fine curve of the chart, without its end.
-Curve resample_curve(const std::vector<Vector2d>& fine, const Chart& chart, const Nodes& scan, int count) {
-    std::vector<Vector3d> places;
-    for (const Vector2d& p : fine) places.push_back(chart.locate(p).at(scan));
-    const std::vector<double> arc = arcs(places);
-    Curve curve;
-    for (int i = 0; i < count; ++i) {
-        const double wanted = arc.back() * i / count;
-        const auto k =
-            static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), wanted) - arc.begin());
-        const double t = (wanted - arc[k - 1]) / (arc[k] - arc[k - 1]);
-        curve.push_back(chart.locate((1 - t) * fine[k - 1] + t * fine[k]));
-    }
-    return curve;
-}
-
-// A quarter of contour after quarter: each from one of the four cardinal landmarks to the next. The upper and
-// the lower lip each have a spline of their own, for the corners are sharp.
-Curve lip_contour(const std::vector<int>& ring, int left, int bottom, int right, const Chart& chart,
-                  const Nodes& scan) {
-    const int count = static_cast<int>(ring.size());
-    const auto spline = [&](int first, int last) {  // landmarks first..last of the ring, wrapped
-        std::vector<Vector2d> places;
-        std::vector<Vector3d> spatial;
-        for (int k = first; k <= last; ++k) {
-            const int node = ring[static_cast<std::size_t>(k % count)];
-            places.push_back(chart.uv(node));
-            spatial.push_back(scan.row(node).transpose());
-        }
-        return spline_through(places, arcs(spatial));
-    };
-    const auto upper = spline(right, count + left), lower = spline(left, right);
-    const auto piece = [&](const std::vector<Vector2d>& fine, int from, int to, int spans) {
-        const auto per = (fine.size() - 1) / static_cast<std::size_t>(spans);
-        return std::vector<Vector2d>(
-            fine.begin() + static_cast<std::ptrdiff_t>(per * static_cast<std::size_t>(from)),
-            fine.begin() + static_cast<std::ptrdiff_t>(per * static_cast<std::size_t>(to)) + 1);
-    };
-    const int above = count + left - right, below = right - left;
-    Curve contour;
-    for (const auto& quarter :
-         {piece(upper, count - right, above, above), piece(lower, 0, bottom - left, below),
-          piece(lower, bottom - left, below, below), piece(upper, 0, count - right, above)}) {
-        const Curve places = resample_curve(quarter, chart, scan, kColumns / 4);
-        contour.insert(contour.end(), places.begin(), places.end());
-    }
-    return contour;
-}
-
-// Midway on the surface between two contours, column by column.
-Curve midway(const Curve& outer, const Curve& inner, const Chart& chart, const Nodes& scan) {
-    constexpr int kSteps = 40;
-    Curve middle;
-    for (std::size_t c = 0; c < outer.size(); ++c) {
-        std::vector<Vector2d> line;
-        for (int i = 0; i <= kSteps; ++i) {
-            const double t = static_cast<double>(i) / kSteps;
-            line.push_back((1 - t) * chart.uv(outer[c]) + t * chart.uv(inner[c]));
-        }
-        middle.push_back(resample_curve(line, chart, scan, 2)[1]);
-    }
-    return middle;
-}
-
 std::vector<int> landmark_ring(const BlendHead& head, Landmarks landmarks) {
     std::vector<int> nodes;
     for (const int k : landmarks) nodes.push_back(head.landmarks().at(static_cast<std::size_t>(k)));
     return nodes;
-}
-
-std::vector<Vector2d> places_of(const Curve& curve, const Chart& chart) {
-    std::vector<Vector2d> places;
-    for (const Anchor& anchor : curve) places.push_back(chart.uv(anchor));
-    return places;
 }
 
 double distance_to(const std::vector<Vector3d>& places, const Vector3d& from) {
@@ -183,97 +49,9 @@ double distance_to(const std::vector<Vector3d>& places, const Vector3d& from) {
     return std::sqrt(least);
 }
 
-std::vector<Vector3d> spatial(const Curve& curve, const Nodes& scan) {
-    std::vector<Vector3d> places;
-    for (const Anchor& anchor : curve) places.push_back(anchor.at(scan));
-    return places;
-}
-
-// A place `out` mm outwards on the surface from one on the rim of a hole.
-Anchor outwards(const Anchor& from, const Vector2d& middle, double out, const Chart& chart,
-                const Nodes& scan) {
-    const Vector2d place = chart.uv(from), way = (place - middle) * 0.01;
-    Anchor to = from;
-    for (int step = 1; step < 300 && (to.at(scan) - from.at(scan)).norm() < out; ++step) {
-        to = chart.locate(place + step * way);
-    }
-    return to;
-}
-
-Vector2d middle_of(const std::vector<Vector2d>& places) {
-    Vector2d middle = Vector2d::Zero();
-    for (const Vector2d& p : places) middle += p / static_cast<double>(places.size());
-    return middle;
-}
-
-// The loop moved outwards by `out` mm.
-Curve offset_loop(const Curve& loop, double out, const Chart& chart, const Nodes& scan) {
-    const Vector2d middle = middle_of(places_of(loop, chart));
-    Curve moved;
-    for (const Anchor& anchor : loop) moved.push_back(outwards(anchor, middle, out, chart, scan));
-    return moved;
-}
-
-// The lid's edge, where it folds towards the eyeball: upper lid from the inner to the outer corner, then the
-// lower lid back.
-struct LidEdge {
-    std::vector<Vector2d> upper, lower;  // fine curves of the chart
-    Curve ring;                          // kLidNodes at equal steps of each lid
-};
-
-LidEdge lid_edge(const std::vector<int>& upper, const std::vector<int>& lower, const Chart& chart,
-                 const Nodes& scan) {
-    const auto spline = [&](const std::vector<int>& nodes) {
-        std::vector<Vector2d> places;
-        std::vector<Vector3d> spatial;
-        for (const int node : nodes) {
-            places.push_back(chart.uv(node));
-            spatial.push_back(scan.row(node).transpose());
-        }
-        return spline_through(places, arcs(spatial));
-    };
-    LidEdge edge{spline(upper), spline(lower), {}};
-    edge.ring = resample_curve(edge.upper, chart, scan, kLidNodes / 2);
-    append(edge.ring, resample_curve(edge.lower, chart, scan, kLidNodes / 2));
-    return edge;
-}
-
-// Where lashes grow on one lid: nose to temple, off the corners.
-Curve lash_roots(const std::vector<Vector2d>& lid, bool from_temple, const Chart& chart, const Nodes& scan) {
-    constexpr int kSteps = 18;
-    constexpr std::size_t kOffNose = 3, kOffTemple = 2;
-    Curve roots = resample_curve(lid, chart, scan, kSteps);
-    if (from_temple) std::reverse(roots.begin(), roots.end());
-    return {roots.begin() + kOffNose, roots.end() - kOffTemple};
-}
-
-// Where an ear stands out farthest at each height, so that its outline from the front is one of the mesh's
-// own curves. side: +1 the talker's left.
-Curve ear_rim(double side, const Chart& chart, const Nodes& scan) {
-    constexpr double kLowest = 6, kHighest = 84, kStep = 2.2, kHead = 77;  // mm
-    Curve rim;
-    for (double y = kLowest; y < kHighest; y += kStep) {
-        Anchor farthest;
-        double reach = kHead;
-        for (const Triangle& t : chart.triangles()) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int a = t[k], b = t[(k + 1) % 3];
-                if ((scan(a, 1) < y) == (scan(b, 1) < y)) continue;
-                const double share = (y - scan(a, 1)) / (scan(b, 1) - scan(a, 1));
-                const double x = side * ((1 - share) * scan(a, 0) + share * scan(b, 0));
-                if (x <= reach) continue;
-                reach = x;
-                farthest = {{a, b, a}, {1 - share, share, 0}};
-            }
-        }
-        if (reach > kHead) rim.push_back(farthest);
-    }
-    return rim;
-}
-
 // Wanted edge length over the face: fine at the lips, the lids and the nostrils, coarse far from them.
 Spacing face_spacing(std::vector<Vector3d> features, std::vector<Vector3d> nose) {
-    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 10, kEar = 3.1, kNoseFiner = 3;
+    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 9, kEar = 2.9, kNoseFiner = 3;
     return [features = std::move(features), nose = std::move(nose)](const Vector3d& place) {
         const double near = std::min(distance_to(features, place), distance_to(nose, place) - kNoseFiner);
         const bool ear = std::abs(place.x()) > 76 && place.y() > 5 && place.y() < 85;
@@ -287,72 +65,92 @@ Loop counted(int first, int count) {
     return loop;
 }
 
+// What has been gathered of the front: curves that the mesh keeps, and where it is to be fine.
+struct FrontCurves {
+    std::vector<Loop> loops;
+    Curve border;    // of the lips
+    Curve lids;      // edges of the lids and loops round them
+    Curve features;  // near which the mesh is fine
+};
+
+void add_eye(DisplayAnchors& mesh, FrontCurves& curves, const Loop& hole, const Chart& chart,
+             const BlendHead& head) {
+    const Nodes& scan = head.neutral().nodes;
+    const bool left = scan(hole.front(), 0) > 0;
+    const auto first = static_cast<int>(mesh.front.size());
+    mesh.lid_first[left ? 0 : 1] = first;
+    curves.loops.push_back(counted(first, kLidNodes));
+    const Curve lid = resample_loop(hole, scan, kLidNodes);
+    append(mesh.front, lid);
+    const LidEdge edge = lid_edge(landmark_ring(head, left ? kLeftUpperLid : kRightUpperLid),
+                                  landmark_ring(head, left ? kLeftLowerLid : kRightLowerLid), chart, scan);
+    append(curves.lids, edge.ring);
+    append(curves.features, lid);
+    append(curves.features, edge.ring);
+    for (const double out : {1.5, 3.4}) append(curves.lids, offset_loop(edge.ring, out, chart, scan));
+    mesh.lash_roots[left ? 0 : 2] = lash_roots(edge.upper, false, chart, scan);
+    mesh.lash_roots[left ? 1 : 3] = lash_roots(edge.lower, true, chart, scan);
+}
+
+void add_lips(DisplayAnchors& mesh, FrontCurves& curves, const Chart& chart, const BlendHead& head) {
+    const Nodes& scan = head.neutral().nodes;
+    curves.border = lip_contour(landmark_ring(head, kLipBorder), 3, 6, 9, chart, scan);
+    mesh.lip_inner = lip_contour(landmark_ring(head, kLipInner), 2, 4, 6, chart, scan);
+    mesh.lip_middle = midway(curves.border, mesh.lip_inner, chart, scan);
+    append(curves.features, curves.border);
+}
+
+void mesh_front(DisplayAnchors& mesh, const Chart& chart, const BlendHead& head) {
+    const Nodes& scan = head.neutral().nodes;
+    FrontCurves curves;
+    curves.loops = {counted(0, kRingNodes)};
+    add_lips(mesh, curves, chart, head);
+    for (const Loop& hole : chart.holes()) {
+        const bool mouth = std::abs(scan(hole.front(), 0)) < 10;  // it lies inside the lips
+        if (!mouth) add_eye(mesh, curves, hole, chart, head);
+    }
+    mesh.border_first = static_cast<int>(mesh.front.size());
+    curves.loops.push_back(counted(mesh.border_first, kColumns));
+    append(mesh.front, curves.border);
+    append(mesh.front, curves.lids);
+    for (const double side : {1.0, -1.0}) append(mesh.front, ear_rim(side, chart, scan));
+
+    std::vector<Vector3d> nose;
+    for (const int node : landmark_ring(head, kUnderNose)) nose.push_back(scan.row(node));
+    const auto border = places_of(curves.border, chart);
+    const Keep on_face = [&](const Anchor& anchor) { return !inside(border, chart.uv(anchor)); };
+    append(mesh.front, sample_surface(scan, chart, mesh.front,
+                                      face_spacing(spatial(curves.features, scan), nose), on_face, kSeed));
+    mesh.front_places = places_of(mesh.front, chart);
+    mesh.front_triangles = triangulate(mesh.front_places, nodes_at(mesh.front, scan), curves.loops);
+}
+
+void mesh_back(DisplayAnchors& mesh, const Chart& chart, const Nodes& scan) {
+    constexpr double kSpacing = 12;  // mm
+    const Curve bottom = resample_loop(chart.holes().at(0), scan, kBottomNodes);
+    append(mesh.back, bottom);
+    const auto border = places_of(bottom, chart);
+    append(mesh.back,
+           sample_surface(
+               scan, chart, mesh.back, [](const Vector3d&) { return kSpacing; },
+               [&](const Anchor& anchor) { return !inside(border, chart.uv(anchor)); }, kSeed + 1));
+    mesh.back_places = places_of(mesh.back, chart);
+    mesh.back_triangles = triangulate(mesh.back_places, nodes_at(mesh.back, scan),
+                                      {counted(0, kRingNodes), counted(kRingNodes, kBottomNodes)});
+}
+
 }  // namespace
 
 DisplayAnchors remesh_head(const BlendHead& head) {
     const Nodes& scan = head.neutral().nodes;
     const Chart face(scan, triangles_of(head.neutral(), "M_Face", BlendHead::kFace.last));
     const Chart back(scan, triangles_of(head.neutral(), "M_BackHead", BlendHead::kHeadAndNeck.last));
-    const auto border_ring = landmark_ring(head, {51, 52, 53, 54, 55, 56, 57, 58, 59, 48, 49, 50});
-    const auto inner_ring = landmark_ring(head, {62, 63, 64, 65, 66, 67, 60, 61});
-
     DisplayAnchors mesh;
-    const Curve ring = resample_loop(face.outer(), scan, kRingNodes);
-    const Curve border = lip_contour(border_ring, 3, 6, 9, face, scan);
-    mesh.lip_inner = lip_contour(inner_ring, 2, 4, 6, face, scan);
-    mesh.lip_middle = midway(border, mesh.lip_inner, face, scan);
     mesh.ring = kRingNodes;
     mesh.lid_nodes = kLidNodes;
-
-    mesh.front = ring;
-    std::vector<Loop> loops = {counted(0, kRingNodes)};
-    Curve features = border, rings;
-    for (const Loop& hole : face.holes()) {
-        const double x = scan(hole.front(), 0);
-        if (std::abs(x) < 10) continue;  // the mouth's own hole lies inside the lips
-        mesh.lid_first[x > 0 ? 0 : 1] = static_cast<int>(mesh.front.size());
-        loops.push_back(counted(static_cast<int>(mesh.front.size()), kLidNodes));
-        const Curve lid = resample_loop(hole, scan, kLidNodes);
-        append(mesh.front, lid);
-        append(features, lid);
-        const bool left = x > 0;
-        const LidEdge edge = lid_edge(landmark_ring(head, left ? kLeftUpperLid : kRightUpperLid),
-                                      landmark_ring(head, left ? kLeftLowerLid : kRightLowerLid), face, scan);
-        append(rings, edge.ring);
-        append(features, edge.ring);
-        for (const double out : {1.5, 3.4}) append(rings, offset_loop(edge.ring, out, face, scan));
-        mesh.lash_roots[left ? 0 : 2] = lash_roots(edge.upper, false, face, scan);
-        mesh.lash_roots[left ? 1 : 3] = lash_roots(edge.lower, true, face, scan);
-    }
-    mesh.border_first = static_cast<int>(mesh.front.size());
-    loops.push_back(counted(mesh.border_first, kColumns));
-    append(mesh.front, border);
-    append(mesh.front, rings);
-    for (const double side : {1.0, -1.0}) append(mesh.front, ear_rim(side, face, scan));
-
-    std::vector<Vector3d> nose;
-    for (const int k : {31, 32, 33, 34, 35})
-        nose.push_back(scan.row(head.landmarks()[static_cast<std::size_t>(k)]));
-    const auto border_polygon = places_of(border, face);
-    const Keep on_face = [&](const Anchor& anchor) { return !inside(border_polygon, face.uv(anchor)); };
-    append(mesh.front, sample_surface(scan, face, mesh.front, face_spacing(spatial(features, scan), nose),
-                                      on_face, kSeed));
-    mesh.front_places = places_of(mesh.front, face);
-    mesh.front_triangles = triangulate(mesh.front_places, nodes_at(mesh.front, scan), loops);
-
-    constexpr double kBackSpacing = 15;
-    const Loop& bottom_hole = back.holes().at(0);
-    const Curve bottom = resample_loop(bottom_hole, scan, kBottomNodes);
-    mesh.back = ring;
-    append(mesh.back, bottom);
-    const auto bottom_polygon = places_of(bottom, back);
-    append(mesh.back,
-           sample_surface(
-               scan, back, mesh.back, [](const Vector3d&) { return kBackSpacing; },
-               [&](const Anchor& anchor) { return !inside(bottom_polygon, back.uv(anchor)); }, kSeed + 1));
-    mesh.back_places = places_of(mesh.back, back);
-    mesh.back_triangles = triangulate(mesh.back_places, nodes_at(mesh.back, scan),
-                                      {counted(0, kRingNodes), counted(kRingNodes, kBottomNodes)});
+    mesh.front = mesh.back = resample_loop(face.outer(), scan, kRingNodes);
+    mesh_front(mesh, face, head);
+    mesh_back(mesh, back, scan);
     return mesh;
 }
 

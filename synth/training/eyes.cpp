@@ -51,7 +51,7 @@ PartMesh eye(double side) {
 
 Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper) {
     const auto count = static_cast<int>(roots.rows());
-    const double length = upper ? 7.5 : 4.0, curl = upper ? 0.75 : -0.35;
+    const double length = upper ? 8.0 : 4.6, curl = upper ? 0.72 : -0.55;
     Nodes strip(kLashRows * count, 3);
     for (int i = 0; i < count; ++i) {
         const Vector3d root = roots.row(i), out = (root - ball.centre).normalized();
@@ -68,12 +68,13 @@ Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper) {
     return strip;
 }
 
-PartMesh lashes(std::string name, const Nodes& strip, int roots, bool mirrored) {
+PartMesh lashes(std::string name, const Nodes& strip, int roots, bool upper, bool mirrored) {
+    const float first_v = upper ? 0 : 0.18f;  // below, roots do not show as a line
     PartMesh part{std::move(name), Material::kLash, Drive::kModes, strip, Uvs(strip.rows(), 2), {}};
     for (int r = 0; r < kLashRows; ++r) {
         for (int i = 0; i < roots; ++i) {
             part.uvs.row(r * roots + i) << static_cast<float>(i) / static_cast<float>(roots - 1),
-                static_cast<float>(r) / (kLashRows - 1);
+                first_v + (1 - first_v) * static_cast<float>(r) / (kLashRows - 1);
             if (r + 1 == kLashRows || i + 1 == roots) continue;
             const int a = r * roots + i, b = a + 1, c = a + roots, d = c + 1;
             part.triangles.push_back(mirrored ? Triangle{a, c, d} : Triangle{a, d, c});

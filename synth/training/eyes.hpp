@@ -13,6 +13,6 @@ PartMesh eye(double side);
 
 // roots: the lid's upper or lower edge, nose to temple; the strip leaves the eyeball and curls up or down.
 Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper);
-PartMesh lashes(std::string name, const Nodes& strip, int roots, bool mirrored);
+PartMesh lashes(std::string name, const Nodes& strip, int roots, bool upper, bool mirrored);
 
 }  // namespace viaface

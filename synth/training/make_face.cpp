@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "synth/picture/surface_frame.hpp"
 #include "synth/pose/inside.hpp"
 #include "synth/training/eyes.hpp"
+#include "synth/training/hairline.hpp"
 #include "synth/training/teeth.hpp"
 #include "synth/training/tongue.hpp"
 
@@ -127,8 +129,8 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
         const Nodes strip = posed_lashes(anchors, place, scan);
         const auto& roots =
             anchors.lash_roots[static_cast<std::size_t>(2 * place.eye + (place.upper ? 0 : 1))];
-        parts.push_back(
-            lashes(place.name, strip, static_cast<int>(roots.size()), (place.eye == 1) == place.upper));
+        parts.push_back(lashes(place.name, strip, static_cast<int>(roots.size()), place.upper,
+                               (place.eye == 1) == place.upper));
     }
     return parts;
 }
@@ -144,6 +146,21 @@ void weld_parts(Face& face, const DisplayAnchors& anchors) {
     }
 }
 
+// How far hair stands off the scalp of a bare head, mm.
+Nodes hair_over(const Face& bare) {
+    NodesF normals;
+    NodeNormals(bare).compute(bare.rest.cast<float>(), normals);
+    Nodes hair = Nodes::Zero(bare.rest.rows(), 3);
+    for (const FacePart& part : bare.parts) {
+        if (part.material != Material::kSkin) continue;
+        for (int i = part.first_node; i < part.first_node + part.nodes; ++i) {
+            hair.row(i) =
+                hair_thickness(bare.rest.row(i).transpose().cast<float>()) * normals.row(i).cast<double>();
+        }
+    }
+    return hair;
+}
+
 Eigen::VectorXd flat(const Nodes& nodes) {
     return Eigen::Map<const Eigen::VectorXd>(nodes.data(), nodes.size());
 }
@@ -155,12 +172,24 @@ HeadToFace::HeadToFace(const BlendHead& head)
       anchors_(remesh_head(head)),
       rest_points_(head.points(head.neutral().nodes)),
       lining_(MouthLining::rest(lip_contours(anchors_, head.neutral().nodes).inner)),
-      lowered_(lowered_lids(head)) {}
+      lowered_(lowered_lids(head)) {
+    hair_ = hair_over(unposed());
+}
 
 Nodes HeadToFace::resting(const Nodes& scan) const { return scan + lowered_; }
 
+std::vector<PartMesh> HeadToFace::parts(const Nodes& scan) const {
+    auto parts = parts_of(head_, anchors_, rest_points_, lining_, resting(scan));
+    Eigen::Index first = 0;
+    for (PartMesh& part : parts) {
+        if (hair_.rows() != 0) part.nodes += hair_.middleRows(first, part.nodes.rows());
+        first += part.nodes.rows();
+    }
+    return parts;
+}
+
 Nodes HeadToFace::posed(const Nodes& scan) const {
-    const auto parts = parts_of(head_, anchors_, rest_points_, lining_, resting(scan));
+    const auto parts = this->parts(scan);
     Eigen::Index count = 0;
     for (const PartMesh& part : parts) count += part.nodes.rows();
     Nodes nodes(count, 3);
@@ -175,8 +204,7 @@ Nodes HeadToFace::posed(const Nodes& scan) const {
 Face HeadToFace::unposed() const {
     Face face;
     face.jaw_hinge = kHinge;
-    const Nodes scan = resting(head_.pose(posture("closed_relaxed").weights));
-    for (const PartMesh& part : parts_of(head_, anchors_, rest_points_, lining_, scan)) add_part(face, part);
+    for (const PartMesh& part : parts(head_.pose(posture("closed_relaxed").weights))) add_part(face, part);
     face.lips.first_node = part_named(face, "lips").first_node;
     weld_parts(face, anchors_);
     return face;

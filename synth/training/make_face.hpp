@@ -7,6 +7,7 @@
 #include "synth/pose/training.hpp"
 #include "synth/training/blend_head.hpp"
 #include "synth/training/display_mesh.hpp"
+#include "synth/training/part_mesh.hpp"
 #include "synth/training/postures.hpp"
 
 namespace viaface {
@@ -24,11 +25,14 @@ class HeadToFace {
     Face unposed() const;                  // parts, uvs, welds and the rest nodes: no modes, no shapes
 
   private:
+    std::vector<PartMesh> parts(const Nodes& scan) const;  // at the posture of `scan`, in the face's order
+
     const BlendHead& head_;  // outlives this
     DisplayAnchors anchors_;
     Configuration rest_points_;
     Nodes lining_;
     Nodes lowered_;  // the lids' way to rest, [nodes of the scan x 3], mm
+    Nodes hair_;     // what hair adds, [nodes of the face x 3], mm
 };
 
 Face make_face(const HeadToFace& source, const std::vector<Posture>& postures = talker_postures());

@@ -21,81 +21,106 @@ constexpr std::array<Crown, kPerSide> kUpper = {{{4.25, -1.9, 5, 8.5, 6.6, 0.0, 
                                                  {16.8, -8.9, 48, 8.0, 7.0, 0.3, 0.35, 0.9},
                                                  {20.2, -15.8, 68, 7.2, 8.6, 0.9, 0.75, 0.5},
                                                  {22.3, -22.8, 72, 7.2, 8.8, 1.3, 0.75, 0.4},
-                                                 {24.2, -31.2, 75, 9.8, 9.4, 1.7, 0.85, 0.2},
-                                                 {25.8, -40.8, 79, 9.4, 9.4, 2.8, 0.85, 0.2}}};
+                                                 {24.2, -31.2, 75, 9.8, 9.4, 1.6, 0.85, 0.2},
+                                                 {25.8, -40.8, 79, 9.4, 9.4, 2.1, 0.85, 0.2}}};
 constexpr std::array<Crown, kPerSide> kLower = {{{2.8, -3.9, 4, 5.6, 5.8, 0.3, 0.28, 0.0},
                                                  {8.4, -5.0, 20, 6.0, 5.8, 0.5, 0.28, 0.1},
                                                  {13.7, -9.0, 45, 7.2, 6.6, 0.9, 0.35, 0.8},
                                                  {17.5, -15.2, 64, 7.2, 7.4, 0.5, 0.7, 0.5},
                                                  {19.9, -22.2, 70, 7.4, 7.8, 0.5, 0.75, 0.4},
                                                  {22.0, -30.9, 74, 10.4, 8.4, 0.9, 0.85, 0.2},
-                                                 {23.8, -41.0, 78, 10.0, 8.4, 2.0, 0.85, 0.2}}};
+                                                 {23.8, -41.0, 78, 10.0, 8.4, 1.5, 0.85, 0.2}}};
 constexpr double kCrownHeight = 11.5;  // mm, from the edge to a neck within the gum
 
-// Sections from the neck (0) to the edge (kSections - 1), then the middle of the biting face.
+constexpr std::array<double, kSections> kHeights = {0, 0.42, 0.76, 0.94, 1};
+constexpr std::array<double, kSections> kWidths = {0.74, 0.95, 1.02, 1.0, 0.92};
+
+// Round a crown from the middle of its face: sideways and outwards, parts of half its width and depth.
+constexpr std::array<std::array<double, 2>, kAround> kRound = {{{0, 1},
+                                                                {0.5, 0.97},
+                                                                {0.9, 0.78},
+                                                                {1, 0.35},
+                                                                {0.6, -0.9},
+                                                                {-0.6, -0.9},
+                                                                {-1, 0.35},
+                                                                {-0.9, 0.78},
+                                                                {-0.5, 0.97}}};
+
+// One crown where it stands: mirror, the talker's side; side, +1 above; strip, its part of the texture.
+// Sections go from the neck (0) to the edge (kSections - 1), then comes the middle of the biting face.
 // Crowns touch at the third section; their edges' corners are round, the outer one more.
-void add_crown(PartMesh& part, int first, const Crown& crown, double mirror, double side, double strip) {
-    const double facing = crown.facing * std::numbers::pi / 180;
-    const Vector3d out(mirror * std::sin(facing), 0, std::cos(facing));
-    const Vector3d along(mirror * std::cos(facing), 0, -std::sin(facing));
-    const Vector3d middle(mirror * crown.x, crown.edge, crown.z);
-    constexpr std::array<double, kSections> kHeights = {0, 0.42, 0.76, 0.94, 1};
-    constexpr std::array<double, kSections> kWidths = {0.74, 0.95, 1.02, 1.0, 0.92};
-    constexpr double kStripHalf = 0.36,
-                     kStripFoot = 0.03;  // of the crown's strip of the texture: off its rims
-    const auto uv = [&](double sideways, double h) {
-        return Eigen::RowVector2f(static_cast<float>((strip + 0.5 + kStripHalf * sideways) / (2 * kPerSide)),
-                                  static_cast<float>(kStripFoot + (1 - 2 * kStripFoot) * h));
-    };
-    // Round a crown from the middle of its face: sideways and outwards, parts of half its width and depth.
-    constexpr std::array<std::array<double, 2>, kAround> kRound = {{{0, 1},
-                                                                    {0.5, 0.97},
-                                                                    {0.9, 0.78},
-                                                                    {1, 0.35},
-                                                                    {0.6, -0.9},
-                                                                    {-0.6, -0.9},
-                                                                    {-1, 0.35},
-                                                                    {-0.9, 0.78},
-                                                                    {-0.5, 0.97}}};
-    for (int s = 0; s < kSections; ++s) {
-        const double h = kHeights[static_cast<std::size_t>(s)];
+class StandingCrown {
+  public:
+    StandingCrown(const Crown& crown, double mirror, double side, int strip)
+        : crown_(crown), side_(side), strip_(strip), flipped_(mirror * side > 0) {
+        const double facing = crown.facing * std::numbers::pi / 180;
+        out_ = Vector3d(mirror * std::sin(facing), 0, std::cos(facing));
+        along_ = Vector3d(mirror * std::cos(facing), 0, -std::sin(facing));
+        middle_ = Vector3d(mirror * crown.x, crown.edge, crown.z);
+    }
+
+    void add_to(PartMesh& part, int first) const {
+        for (int s = 0; s < kSections; ++s) {
+            for (int k = 0; k < kAround; ++k) {
+                part.nodes.row(first + s * kAround + k) = place(s, k).transpose();
+                part.uvs.row(first + s * kAround + k) =
+                    uv(kRound[static_cast<std::size_t>(k)][0], kHeights[static_cast<std::size_t>(s)]);
+            }
+        }
+        const int cap = first + kSections * kAround;
+        part.nodes.row(cap) = biting_middle().transpose();
+        part.uvs.row(cap) = uv(0, 1);
+        add_triangles(part, first, cap);
+    }
+
+  private:
+    Vector3d place(int section, int round) const {
+        const double h = kHeights[static_cast<std::size_t>(section)];
+        const auto [sideways, across] = kRound[static_cast<std::size_t>(round)];
         const double edge_part = std::pow(h, 1.4);
         const double depth =
-            crown.depth * ((1 - edge_part) + edge_part * crown.thin) * (s == kSections - 1 ? 0.8 : 1);
+            crown_.depth * ((1 - edge_part) + edge_part * crown_.thin) * (section == kSections - 1 ? 0.8 : 1);
         const double front =
-            crown.depth * 0.5 * (1 - 0.10 * h * h);  // the face leans back a little at the edge
+            crown_.depth * 0.5 * (1 - 0.10 * h * h);  // the face leans back a little at the edge
+        const double width = crown_.width * kWidths[static_cast<std::size_t>(section)];
+        const double corner = (sideways > 0 ? 0.9 : 0.4) * std::pow(std::abs(sideways), 5) * std::pow(h, 6);
+        const double lift = crown_.point * 1.6 * sideways * sideways * h * h + corner;
+        const double bow = 0.10 * crown_.width * sideways * sideways;  // a face is round from side to side
+        return middle_ + out_ * (front - depth * (0.5 - 0.5 * across) - bow) +
+               along_ * (0.5 * width * sideways) + Vector3d(0, side_ * (kCrownHeight * (1 - h) + lift), 0);
+    }
+
+    Vector3d biting_middle() const {
+        const double inset = crown_.depth * 0.5 * (0.9 - crown_.thin * 0.8);
+        return middle_ + out_ * inset + Vector3d(0, side_ * 0.05, 0);
+    }
+
+    Eigen::RowVector2f uv(double sideways, double h) const {
+        constexpr double kHalf = 0.36, kFoot = 0.03;  // of the strip: off its rims
+        return {static_cast<float>((strip_ + 0.5 + kHalf * sideways) / (2 * kPerSide)),
+                static_cast<float>(kFoot + (1 - 2 * kFoot) * h)};
+    }
+
+    void add_triangles(PartMesh& part, int first, int cap) const {
+        const auto add = [&](int a, int b, int c) {
+            part.triangles.push_back(flipped_ ? Triangle{a, c, b} : Triangle{a, b, c});
+        };
+        const auto node = [&](int s, int k) { return first + s * kAround + k % kAround; };
         for (int k = 0; k < kAround; ++k) {
-            const auto [sideways, across] = kRound[static_cast<std::size_t>(k)];
-            const double width = crown.width * kWidths[static_cast<std::size_t>(s)];
-            const double corner =
-                (sideways > 0 ? 0.9 : 0.4) * std::pow(std::abs(sideways), 5) * std::pow(h, 6);
-            const double lift = crown.point * 1.6 * sideways * sideways * h * h + corner;
-            const double bow = 0.10 * crown.width * sideways * sideways;  // a face is round from side to side
-            const Vector3d place = middle + out * (front - depth * (0.5 - 0.5 * across) - bow) +
-                                   along * (0.5 * width * sideways) +
-                                   Vector3d(0, side * (kCrownHeight * (1 - h) + lift), 0);
-            const int node = first + s * kAround + k;
-            part.nodes.row(node) = place.transpose();
-            part.uvs.row(node) = uv(sideways, h);
+            for (int s = 0; s + 1 < kSections; ++s) {
+                add(node(s, k), node(s + 1, k + 1), node(s + 1, k));
+                add(node(s, k), node(s, k + 1), node(s + 1, k + 1));
+            }
+            add(node(kSections - 1, k), node(kSections - 1, k + 1), cap);
         }
     }
-    const int cap = first + kSections * kAround;
-    const double inset = crown.depth * 0.5 * (0.9 - crown.thin * 0.8);
-    part.nodes.row(cap) = (middle + out * inset + Vector3d(0, side * 0.05, 0)).transpose();
-    part.uvs.row(cap) = uv(0, 1);
-    const bool flipped = mirror * side > 0;
-    const auto add = [&](int a, int b, int c) {
-        part.triangles.push_back(flipped ? Triangle{a, c, b} : Triangle{a, b, c});
-    };
-    const auto node = [&](int s, int k) { return first + s * kAround + k % kAround; };
-    for (int k = 0; k < kAround; ++k) {
-        for (int s = 0; s + 1 < kSections; ++s) {
-            add(node(s, k), node(s + 1, k + 1), node(s + 1, k));
-            add(node(s, k), node(s, k + 1), node(s + 1, k + 1));
-        }
-        add(node(kSections - 1, k), node(kSections - 1, k + 1), cap);
-    }
-}
+
+    const Crown& crown_;
+    double side_;
+    int strip_;
+    bool flipped_;
+    Vector3d out_, along_, middle_;
+};
 
 PartMesh teeth(const std::array<Crown, kPerSide>& arch, double side, std::string name, Drive drive) {
     PartMesh part{std::move(name),
@@ -106,7 +131,8 @@ PartMesh teeth(const std::array<Crown, kPerSide>& arch, double side, std::string
                   {}};
     for (int i = 0; i < 2 * kPerSide; ++i) {
         const double mirror = i < kPerSide ? 1 : -1;
-        add_crown(part, i * kNodesPerTooth, arch[static_cast<std::size_t>(i % kPerSide)], mirror, side, i);
+        StandingCrown(arch[static_cast<std::size_t>(i % kPerSide)], mirror, side, i)
+            .add_to(part, i * kNodesPerTooth);
     }
     return part;
 }
@@ -183,8 +209,5 @@ PartMesh upper_teeth() { return teeth(kUpper, +1, "teeth_upper", Drive::kFixed);
 PartMesh lower_teeth() { return teeth(kLower, -1, "teeth_lower", Drive::kJaw); }
 PartMesh upper_gums() { return gums(kUpper, +1, "gums_upper", Drive::kFixed); }
 PartMesh lower_gums() { return gums(kLower, -1, "gums_lower", Drive::kJaw); }
-
-TeethFront upper_front() { return {1.6, 0.026, 0.0, +1, 2.0}; }
-TeethFront lower_front() { return {-0.9, 0.030, 0.3, -1, 2.0}; }
 
 }  // namespace viaface

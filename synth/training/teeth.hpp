@@ -3,7 +3,6 @@
 // v from the neck to the edge; front and back share it.
 #pragma once
 
-#include "facemodel/lips.hpp"
 #include "synth/training/part_mesh.hpp"
 
 namespace viaface {
@@ -12,8 +11,5 @@ PartMesh upper_teeth();
 PartMesh lower_teeth();
 PartMesh upper_gums();
 PartMesh lower_gums();
-
-TeethFront upper_front();
-TeethFront lower_front();  // at rest
 
 }  // namespace viaface

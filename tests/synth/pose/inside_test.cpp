@@ -52,5 +52,26 @@ TEST(Mouth, LiningStartsAtTheLipsAndItsThroatStays) {
     EXPECT_TRUE(posed.bottomRows(1).isApprox(rest.bottomRows(1)));
 }
 
+// Seen from the front, parted lips end in their own edge: the lining right behind lies farther from the
+// opening.
+TEST(Mouth, LiningHidesBehindPartedLips) {
+    Contour inner;
+    for (int c = 0; c < LipGrid::kColumns; ++c)
+        inner.row(c) << 20 * std::sin(0.157 * c), 0.5 * std::cos(0.157 * c), 5;
+    const Nodes rest = MouthLining::rest(inner);
+    Contour parted = inner;
+    parted.col(1) *= 12;
+    const Nodes shut = MouthLining::posed(rest, inner, JawMotion{}),
+                open = MouthLining::posed(rest, parted, JawMotion{});
+    const int behind = LipGrid::kColumns, lower = LipGrid::kColumns / 2;
+    for (int c = -4; c <= 4; ++c) {
+        const int above = (c + LipGrid::kColumns) % LipGrid::kColumns, below = lower + c;
+        EXPECT_GT(open(behind + above, 1), parted(above, 1));
+        EXPECT_LT(open(behind + below, 1), parted(below, 1));
+        EXPECT_LT(shut(behind + above, 1), inner(above, 1));  // shut, they reach past each other
+        EXPECT_GT(shut(behind + below, 1), inner(below, 1));
+    }
+}
+
 }  // namespace
 }  // namespace viaface
