@@ -5,8 +5,8 @@
 #include <string>
 
 #include "server/commands.hpp"
+#include "server/request_fields.hpp"
 #include "server/requests.hpp"
-#include "synth/picture/portrait.hpp"
 #include "synth/pose/blinks.hpp"
 #include "synth/talker/talker_shelf.hpp"
 
@@ -49,8 +49,7 @@ FilmSink discarding() {
 
 class Bench {
   public:
-    Bench(const VideoRequest& request)
-        : request_(request), spec_{request.say.view.width, request.say.view.height, request.say.fps} {
+    Bench(const VideoRequest& request) : request_(request), spec_(film_of(request)) {
         request_.say.speech.text = kText;
     }
 
@@ -105,7 +104,7 @@ class Bench {
         print("pose", posing, times_.size());
         std::optional<Portrait> portrait;
         setting_up_ = seconds_of([&] {
-            portrait.emplace(talker_->face, request_.say.view);
+            portrait.emplace(talker_->face, request_.say.view, Drawing{.renderer = request_.say.renderer});
             portrait->draw(posed.front());
         });
         const double all = seconds_of([&] {
@@ -180,7 +179,7 @@ class Bench {
 Command add_bench(CLI::App& program) {
     struct Options {
         VideoRequest request;
-        std::string size = "512x512";
+        std::string size = "512x512", renderer = kDefaultRenderer;
         double fps = 30;
     };
     auto options = std::make_shared<Options>();
@@ -188,12 +187,15 @@ Command add_bench(CLI::App& program) {
         "bench",
         "Times the stages on one sentence: real-time factors, and the whole against encoding alone.");
     app->add_option("--talker", options->request.talker, "a built-in talker's name")->capture_default_str();
-    app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app->add_option("--fps", options->fps, "frames per second")->capture_default_str();
+    app->add_option("--size", options->size, description_of("size"))->capture_default_str();
+    app->add_option("--fps", options->fps, description_of("fps"))->capture_default_str();
+    app->add_option("--renderer", options->renderer, kRendererHelp)->capture_default_str();
     return [options] {
+        options->request.say.renderer = renderer_of(options->renderer);
         set_size(options->request.say.view, options->size);
         options->request.say.fps = frame_rate(options->fps);
         check(options->request.say.view);
+        validate(film_of(options->request));
         Bench(options->request).run();
         return 0;
     };

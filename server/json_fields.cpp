@@ -13,6 +13,21 @@ std::string shown(const nlohmann::json& value) {
 
 }  // namespace
 
+nlohmann::json parse_json(std::string_view text) {
+    using Event = nlohmann::json::parse_event_t;
+    const auto shallow = [](int depth, Event event, nlohmann::json&) {
+        const bool opens = event == Event::object_start || event == Event::array_start;
+        if (opens && depth >= kDeepestJson)
+            throw NotJson("nested more than " + std::to_string(kDeepestJson) + " deep, which no request is");
+        return true;
+    };
+    try {
+        return nlohmann::json::parse(text, shallow);
+    } catch (const nlohmann::json::exception& error) {
+        throw NotJson(error.what());
+    }
+}
+
 JsonFields::JsonFields(const nlohmann::json& object, std::string path)
     : object_(object), path_(std::move(path)) {
     if (!object.is_object()) throw InputError(path_.empty() ? "body" : path_, shown(object), "a JSON object");

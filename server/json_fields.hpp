@@ -1,13 +1,24 @@
-// Strict reading of a JSON object: wrong types and unknown names are InputErrors that name the field and what
-// is allowed.
+// Strict reading of JSON from strangers: what is no JSON, or nested deeper than any request, is NotJson; in
+// an object wrong types and unknown names are InputErrors that name the field and what is allowed.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace viaface {
+
+inline constexpr int kDeepestJson = 8;  // objects and arrays in one another
+
+class NotJson : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+nlohmann::json parse_json(std::string_view text);
 
 class JsonFields {
   public:
@@ -19,6 +30,7 @@ class JsonFields {
     std::optional<std::uint64_t> whole_number(const std::string& name);
     std::optional<nlohmann::json> object(const std::string& name);
 
+    bool has(const std::string& name) const { return object_.contains(name); }
     void refuse_unknown() const;  // names that were not asked for
 
   private:

@@ -1,146 +1,129 @@
 #include "server/openapi.hpp"
 
+#include "server/answer_schemas.hpp"
+#include "server/http_body.hpp"
 #include "server/problem.hpp"
+#include "server/request_fields.hpp"
 #include "server/requests.hpp"
 #include "server/service.hpp"
-#include "synth/speech/text.hpp"
+#include "web/web_files.hpp"
 
 namespace viaface {
 namespace {
 
 using nlohmann::json;
 
-json number(double least, double most, double standard, const std::string& description) {
-    return {{"type", "number"},
-            {"minimum", least},
-            {"maximum", most},
-            {"default", standard},
-            {"description", description}};
+json content(const std::string& type, json schema) { return {{type, {{"schema", std::move(schema)}}}}; }
+json reference(const std::string& name) { return {{"$ref", "#/components/schemas/" + name}}; }
+
+json problem_response(const std::string& description, const char* schema = "Problem") {
+    return {{"description", description}, {"content", content(kProblemType, reference(schema))}};
 }
 
-json speech_properties() {
-    return {
-        {"text",
-         {{"type", "string"},
-          {"minLength", 1},
-          {"maxLength", kLongestText},
-          {"description", "English, UTF-8; the limit is in bytes. Either text or phones."}}},
-        {"phones",
-         {{"type", "string"},
-          {"examples", json::array({"ax b:90 aa1:220"})},
-          {"description",
-           "ARPAbet phones, vowels with a stress digit, each with an optional duration in ms (20 to "
-           "2000)."}}},
-        {"voice", {{"type", "string"}, {"enum", FliteVoice::names()}, {"default", kDefaultVoice}}},
-        {"rate", number(kLeast, kMost, 1, "Speaking rate, times the voice's own.")},
-        {"pitch", number(kLeast, kMost, 1, "Pitch, times the voice's own.")},
-        {"talker",
-         {{"type", "string"}, {"default", kDefaultTalker}, {"description", "A name of GET /v1/talkers."}}},
-    };
+json failure() { return problem_response("The service failed; its log says why."); }
+
+json full_queue() {
+    json response = problem_response("The queue is full.");
+    response["headers"]["Retry-After"] = {{"description", "when to try again, s"},
+                                          {"schema", {{"type", "integer"}, {"minimum", 0}}}};
+    return response;
 }
 
-json view_schema() {
-    const auto angle = [](const char* what) {
-        return number(-View::kWidestTurn, View::kWidestTurn, 0, what);
-    };
+// Exactly one of text and phones.
+json request_schema(json fields) {
     return {{"type", "object"},
+            {"properties", std::move(fields)},
             {"additionalProperties", false},
-            {"properties",
-             {{"yaw", angle("Degrees towards the talker's left.")},
-              {"tilt", angle("Degrees, the chin lifted.")},
-              {"roll", angle("Degrees, counter-clockwise in the picture.")},
-              {"background",
-               {{"type", "string"},
-                {"description", "#rrggbb, black, white, grey, green or blue; a soft grey when absent."}}}}}};
+            {"oneOf", {{{"required", {"text"}}}, {{"required", {"phones"}}}}}};
 }
 
-json video_schema() {
-    json properties = speech_properties();
-    properties["fps"] = number(kLowestFrameRate, kHighestFrameRate, 30,
-                               "Frames per second: a whole number, 23.976, 29.97, 59.94 or 119.88.");
-    properties["size"] = {{"type", "string"},
-                          {"pattern", "^[0-9]+x[0-9]+$"},
-                          {"default", "512x512"},
-                          {"description", "WIDTHxHEIGHT, each an even number from 16 to 4096."}};
-    properties["view"] = view_schema();
-    properties["format"] = {{"type", "string"}, {"enum", json::array({"mp4"})}, {"default", "mp4"}};
-    properties["seed"] = {
-        {"type", "integer"}, {"minimum", 0}, {"default", 1}, {"description", "Of the blinks."}};
-    return {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
-}
-
-json problem_response(const char* description) {
-    return {{"description", description},
-            {"content", {{kProblemType, {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
-}
-
-json with_problems(json responses) {
+json posted(const std::string& summary, const char* request, json examples, json answer) {
+    json body = {{"required", true},
+                 {"description", "at most " + std::to_string(kLargestBody) + " bytes, after decompression"},
+                 {"content", content(kJsonType, reference(request))}};
+    body["content"][kJsonType]["examples"] = std::move(examples);
+    json responses = {{"200", std::move(answer)}};
     responses["400"] = problem_response("The body is not JSON.");
-    responses["413"] = problem_response("The body is over the limit of bytes.");
+    responses["413"] =
+        problem_response("The body holds more than " + std::to_string(kLargestBody) + " bytes.");
     responses["415"] = problem_response("The body is not application/json.");
-    responses["422"] =
-        problem_response("A field's value is not allowed; the members field, value and allowed say which.");
-    responses["503"] = problem_response("The queue is full; Retry-After says when to try again, in s.");
-    return responses;
+    responses["422"] = problem_response("A field's value is not allowed.", "FieldProblem");
+    responses["500"] = failure();
+    responses["503"] = full_queue();
+    return {{"post", {{"summary", summary}, {"requestBody", body}, {"responses", responses}}}};
 }
 
-json posted(const char* summary, const char* schema, json answer) {
-    return {{"post",
-             {{"summary", summary},
-              {"requestBody",
-               {{"required", true}, {"content", {{"application/json", {{"schema", {{"$ref", schema}}}}}}}}},
-              {"responses", with_problems({{"200", std::move(answer)}})}}}};
+json got(const std::string& summary, const std::string& type, json schema) {
+    json responses;
+    responses["200"] = {{"description", summary}, {"content", content(type, std::move(schema))}};
+    responses["500"] = failure();
+    return {{"get", {{"summary", summary}, {"responses", responses}}}};
 }
 
-json got(const char* summary, const char* type) {
-    return {{"get",
-             {{"summary", summary},
-              {"responses", {{"200", {{"description", summary}, {"content", {{type, json::object()}}}}}}}}}};
+json example(const char* summary, json value) { return {{"summary", summary}, {"value", std::move(value)}}; }
+
+json videos() {
+    json answer = {
+        {"description", "The film, sent while it is made. One that fails is cut without its closing chunk."}};
+    for (const auto& format : stream_formats()) {
+        answer["content"][stream_type(film_format(format))] = json::object();
+    }
+    json examples;
+    examples["sentence"] = example("a sentence", {{"text", "My mother bought a very big boat."}});
+    examples["side"] =
+        example("another voice, from a side", {{"text", "Here I am."},
+                                               {"voice", "slt"},
+                                               {"size", "640x480"},
+                                               {"fps", 25},
+                                               {"view", {{"yaw", 30}, {"background", "#204060"}}}});
+    examples["phones"] =
+        example("nonsense, exactly timed, lossless", {{"phones", "ax b:90 aa1:220"}, {"format", "mkv"}});
+    return posted("A talking-face video, streamed as it is made", "Video", examples, answer);
 }
 
-json problem_schema() {
-    const json text = {{"type", "string"}};
+json viapoints() {
+    json examples;
+    examples["sentence"] = example("a sentence", {{"text", "My mother bought a very big boat."}});
+    return posted("The via points that the face would pass, with words and phones", "Speech", examples,
+                  {{"description", "mm and s, head frame: x to the talker's left, y up, z forward"},
+                   {"content", content(kJsonType, reference("ViaPoints"))}});
+}
+
+json self() {
     return {{"type", "object"},
-            {"properties",
-             {{"type", text},
-              {"title", text},
-              {"status", {{"type", "integer"}}},
-              {"detail", text},
-              {"field", text},
-              {"value", text},
-              {"allowed", text}}}};
+            {"properties", {{"openapi", {{"const", "3.1.0"}}}}},
+            {"required", {"openapi", "info", "paths", "components"}}};
+}
+
+json paths() {
+    json paths;
+    paths["/v1/videos"] = videos();
+    paths["/v1/viapoints"] = viapoints();
+    paths["/v1/talkers"] = got("The talkers", kJsonType, reference("Talkers"));
+    paths["/v1/voices"] = got("The voices", kJsonType, reference("Voices"));
+    paths["/healthz"] =
+        got("That the service is well, and how many jobs run and wait", kJsonType, reference("Health"));
+    paths["/openapi.json"] = got("This description", kJsonType, self());
+    const json page = {{"type", "string"}};
+    paths["/"] = got("The page", content_type_of("index.html"), page);
+    for (const WebFile& file : web_files()) {
+        paths["/" + std::string(file.name)] = got("A file of the page", content_type_of(file.name), page);
+    }
+    return paths;
 }
 
 }  // namespace
 
 json openapi() {
-    json paths;
-    paths["/v1/videos"] =
-        posted("A talking-face video, streamed as it is made", "#/components/schemas/Video",
-               {{"description",
-                 "A fragmented MP4 (H.264, AAC). A stream that fails is cut without its closing chunk."},
-                {"content", {{kStreamType, json::object()}}}});
-    paths["/v1/viapoints"] = posted("The via points that the face would pass", "#/components/schemas/Speech",
-                                    {{"description", "Words, phones and via points (mm, s, head frame)."},
-                                     {"content", {{"application/json", json::object()}}}});
-    paths["/v1/talkers"] = got("The talkers", "application/json");
-    paths["/v1/voices"] = got("The voices", "application/json");
-    paths["/healthz"] =
-        got("Whether the service is well, and how many jobs run and wait", "application/json");
-    paths["/openapi.json"] = got("This description", "application/json");
-    return {{"openapi", "3.1.0"},
-            {"info",
-             {{"title", "viaface"},
-              {"version", "1"},
-              {"description", "Text in, a talking-face video out. The body is limited to " +
-                                  std::to_string(kLargestBody) + " bytes."}}},
-            {"paths", paths},
-            {"components",
-             {{"schemas",
-               {{"Video", video_schema()},
-                {"Speech",
-                 {{"type", "object"}, {"additionalProperties", false}, {"properties", speech_properties()}}},
-                {"Problem", problem_schema()}}}}}};
+    json schemas = answer_schemas();
+    schemas["Video"] = request_schema(video_fields());
+    schemas["Speech"] = request_schema(speech_fields());
+    json info = {{"title", "viaface"},
+                 {"version", "1"},
+                 {"description",
+                  "Text in, a talking-face video out. Work is bounded: so many jobs run and wait, "
+                  "one more is answered 503. Errors are problem details [RFC 9457]."}};
+    return {{"openapi", "3.1.0"}, {"info", info}, {"paths", paths()}, {"components", {{"schemas", schemas}}}};
 }
 
 }  // namespace viaface

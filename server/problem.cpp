@@ -1,6 +1,9 @@
 #include "server/problem.hpp"
 
+#include <cstdio>
+
 #include "server/admission.hpp"
+#include "server/json_fields.hpp"
 
 namespace viaface {
 namespace {
@@ -28,9 +31,16 @@ Problem problem(const InputError& error) {
 
 Problem problem_of(const std::exception& error) {
     if (const auto* input = dynamic_cast<const InputError*>(&error)) return problem(*input);
+    if (const auto* http = dynamic_cast<const HttpError*>(&error))
+        return problem(http->status(), http->title(), http->what());
+    if (dynamic_cast<const NotJson*>(&error) != nullptr) return problem(400, "Bad Request", error.what());
     if (dynamic_cast<const ServiceFull*>(&error) != nullptr)
         return problem(503, "Service Unavailable", error.what());
     return problem(500, "Internal Server Error", "the request failed; the service's log says why");
+}
+
+void log_failure(const std::exception& error) {
+    std::fprintf(stderr, "viaface: %s\n", describe(error).c_str());
 }
 
 }  // namespace viaface

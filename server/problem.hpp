@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "base/error.hpp"
@@ -9,6 +10,20 @@
 namespace viaface {
 
 inline constexpr const char* kProblemType = "application/problem+json";
+
+// Told to the client as it is.
+class HttpError : public std::runtime_error {
+  public:
+    HttpError(int status, std::string title, const std::string& detail)
+        : std::runtime_error(detail), status_(status), title_(std::move(title)) {}
+
+    int status() const { return status_; }
+    const std::string& title() const { return title_; }
+
+  private:
+    int status_;
+    std::string title_;
+};
 
 struct Problem {
     int status = 500;  // HTTP
@@ -20,5 +35,7 @@ Problem problem(int status, const std::string& title, const std::string& detail)
 Problem problem(const InputError& error);
 // What an exception means to a client; only what a client can mend is told in detail.
 Problem problem_of(const std::exception& error);
+// What a client is not told, to stderr.
+void log_failure(const std::exception& error);
 
 }  // namespace viaface

@@ -26,6 +26,8 @@ void read_speech(JsonFields& fields, VideoRequest& request) {
     SpeechRequest& speech = request.say.speech;
     take(fields.text("text"), speech.text);
     take(fields.text("phones"), speech.phones);
+    if (fields.has("phones") && (fields.has("text") || speech.phones.empty()))
+        throw InputError("phones", speech.phones, "one of text and phones, not empty");
     take(fields.text("voice"), speech.voice);
     take(fields.number("rate"), speech.prosody.rate);
     take(fields.number("pitch"), speech.prosody.pitch);
@@ -44,7 +46,29 @@ void read_view(JsonFields& fields, View& view) {
     angles.refuse_unknown();
 }
 
+FilmFormat stream_format(const std::string& name) {
+    std::string allowed;
+    for (const auto& known : stream_formats()) {
+        if (name == known) return film_format(name);
+        allowed += (allowed.empty() ? "" : " or ") + known;
+    }
+    throw InputError("format", name, allowed);
+}
+
 }  // namespace
+
+FilmSpec film_of(const VideoRequest& request) {
+    const View& view = request.say.view;
+    return {view.width, view.height, request.say.fps, request.format};
+}
+
+Renderer renderer_of(std::string_view name) {
+    if (name == kDefaultRenderer) return Renderer::kRaster;
+    if (name == "osmesa") return Renderer::kOsmesa;
+    throw InputError("renderer", std::string(name), "raster or osmesa");
+}
+
+std::vector<std::string> stream_formats() { return {kDefaultFormat, "mkv"}; }
 
 void set_size(View& view, std::string_view text) {
     const auto cross = std::min(text.find('x'), text.size());
@@ -58,12 +82,11 @@ VideoRequest video_request_of(const nlohmann::json& body) {
     read_speech(fields, request);
     read_view(fields, request.say.view);
     if (const auto fps = fields.number("fps")) request.say.fps = frame_rate(*fps);
-    const auto format = fields.text("format");
-    if (format && *format != "mp4") throw InputError("format", *format, "mp4: only it can be streamed");
+    if (const auto format = fields.text("format")) request.format = stream_format(*format);
     take(fields.whole_number("seed"), request.say.seed);
     fields.refuse_unknown();
     check(request.say.view);
-    validate(FilmSpec{request.say.view.width, request.say.view.height, request.say.fps});
+    validate(film_of(request));
     return request;
 }
 

@@ -4,20 +4,32 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "synth/say/say.hpp"
 
 namespace viaface {
 
 inline constexpr const char* kDefaultTalker = "momo";
+inline constexpr const char* kDefaultFormat = "mp4";
+inline constexpr const char* kDefaultRenderer = "raster";
+inline constexpr const char* kRendererHelp =
+    "raster, our own, or osmesa, Mesa's: the reference, some ten times slower";
 
 struct VideoRequest {
     SayRequest say;
+    FilmFormat format = FilmFormat::kMp4;
     std::string talker = kDefaultTalker;
 };
 
+FilmSpec film_of(const VideoRequest& request);
+
 // "640x480" into the view's size; InputError("size", ...).
 void set_size(View& view, std::string_view text);
+
+Renderer renderer_of(std::string_view name);  // "raster" or "osmesa"; else InputError("renderer", ...)
+
+std::vector<std::string> stream_formats();  // "mp4", ...
 
 // The body of POST /v1/videos and, less what concerns pictures, of POST /v1/viapoints. InputError naming the
 // field.

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "server/commands.hpp"
 #include "server/film_output.hpp"
+#include "server/request_fields.hpp"
 #include "server/requests.hpp"
 #include "synth/say/report_json.hpp"
 #include "synth/speech/text_grid.hpp"
@@ -18,15 +19,14 @@ namespace {
 
 struct SayOptions {
     VideoRequest request;
-    std::string size = "512x512", background, output = "talk.mp4";
+    std::string size = "512x512", background, output = "talk.mp4", renderer = kDefaultRenderer;
     double fps = 30;
     std::string labels, motion, commanded, json;
     bool quiet = false;
 };
 
 std::unique_ptr<FilmWriter> film_for(const SayOptions& options) {
-    const View& view = options.request.say.view;
-    return open_output({view.width, view.height, options.request.say.fps}, options.output);
+    return open_output(film_of(options.request), options.output);
 }
 
 // What goes beside the film.
@@ -101,6 +101,8 @@ void complete(SayOptions& options) {
     set_size(say_request.view, options.size);
     if (!options.background.empty()) say_request.view.background = parse_background(options.background);
     say_request.fps = frame_rate(options.fps);
+    say_request.renderer = renderer_of(options.renderer);
+    if (options.output != "-") options.request.format = film_format_of(options.output);
     check(say_request.view);
     check_places(options);
     if (say_request.speech.text == "-") {
@@ -132,35 +134,31 @@ Command add_say(CLI::App& program) {
     CLI::App* app = program.add_subcommand("say", "Text in, a talking-face video out.");
     SpeechRequest& speech = options->request.say.speech;
     View& view = options->request.say.view;
-    app->add_option("text", speech.text,
-                    "what to say, English, up to 20000 bytes of UTF-8; - reads it from stdin");
-    app->add_option("--phones", speech.phones,
-                    "instead of text: ARPAbet phones with optional ms, for example \"ax b:90 aa1:220\"");
+    app->add_option("text", speech.text, description_of("text") + "; - reads it from stdin");
+    app->add_option("--phones", speech.phones, description_of("phones"));
     app->add_option("-o,--output", options->output,
                     "x.mp4, lossless x.mkv, a folder for PNG files, or - for fragmented MP4 on stdout")
         ->capture_default_str();
-    app->add_option("--voice", speech.voice, "rms, slt, awb or kal16")->capture_default_str();
-    app->add_option("--rate", speech.prosody.rate, "speaking rate, 0.5 to 2 times the voice's own")
-        ->capture_default_str();
-    app->add_option("--pitch", speech.prosody.pitch, "pitch, 0.5 to 2 times the voice's own")
-        ->capture_default_str();
+    app->add_option("--voice", speech.voice, description_of("voice"))->capture_default_str();
+    app->add_option("--rate", speech.prosody.rate, description_of("rate"))->capture_default_str();
+    app->add_option("--pitch", speech.prosody.pitch, description_of("pitch"))->capture_default_str();
     app->add_option("--talker", options->request.talker,
                     "a built-in talker's name, or a talker's folder (with a / in it)")
         ->capture_default_str();
-    app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels, 16 to 4096 each; even for mp4")
-        ->capture_default_str();
-    app->add_option("--fps", options->fps, "frames per second, 15 to 120")->capture_default_str();
-    app->add_option("--yaw", view.yaw, "degrees towards the talker's left, -180 to 180");
-    app->add_option("--tilt", view.tilt, "degrees, the chin lifted, -180 to 180");
-    app->add_option("--roll", view.roll, "degrees counter-clockwise in the picture, -180 to 180");
-    app->add_option("--background", options->background,
-                    "#rrggbb, black, white, grey, green or blue; a soft grey when absent");
+    app->add_option("--size", options->size, description_of("size"))->capture_default_str();
+    app->add_option("--fps", options->fps, description_of("fps"))->capture_default_str();
+    app->add_option("--yaw", view.yaw, description_of("yaw"))->capture_default_str();
+    app->add_option("--tilt", view.tilt, description_of("tilt"))->capture_default_str();
+    app->add_option("--roll", view.roll, description_of("roll"))->capture_default_str();
+    app->add_option("--background", options->background, description_of("background"));
+    app->add_option("--renderer", options->renderer, kRendererHelp)->capture_default_str();
     app->add_option("--head-motion", options->request.say.head_motion,
                     "degrees that the head turns by itself, 0 to 10; the eyes stay on the viewer")
         ->capture_default_str();
-    app->add_option("--seed", options->request.say.seed,
-                    "of the blinks and the head's motion, a whole number from 0")
-        ->check(CLI::NonNegativeNumber)
+    app->add_option("--seed", options->request.say.seed, description_of("seed"))
+        ->check([](const std::string& given) {  // the library takes "-1" for 2^64 - 1
+            return given.starts_with('-') ? "--seed: " + given + " is below 0" : "";
+        })
         ->capture_default_str();
     app->add_option("--labels", options->labels, "write words and phones as a Praat TextGrid");
     app->add_option("--motion", options->motion,

@@ -46,15 +46,16 @@ Command add_serve(CLI::App& program) {
     auto options = std::make_shared<ServiceOptions>();
     CLI::App* app = program.add_subcommand("serve", "The HTTP service and its page; see /openapi.json.");
     app->add_option("--host", options->host, "address to listen on")->capture_default_str();
-    app->add_option("--port", options->port, "port, 0 for any free one")
-        ->check(CLI::Range(0, 65535))
-        ->capture_default_str();
-    app->add_option("--jobs", options->running, "jobs that run at a time")
-        ->check(CLI::Range(1, 64))
-        ->capture_default_str();
-    app->add_option("--queue", options->waiting, "jobs that may wait; one more is answered 503")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    const auto add_count = [app](const char* option, int& value, const char* description, int most,
+                                 int least) {
+        const std::string limits = std::to_string(least) + " to " + std::to_string(most);
+        app->add_option(option, value, description + (", " + limits))
+            ->check(CLI::Range(least, most).description(""))
+            ->capture_default_str();
+    };
+    add_count("--port", options->port, "port to listen on, 0 for any free one", 65535, 0);
+    add_count("--jobs", options->running, "films made at a time", 64, 1);
+    add_count("--queue", options->waiting, "requests that may wait; one more is answered 503", 1024, 0);
     return [options] {
         options->talkers = talkers_folder();
         return run_serve(*options);

@@ -3,9 +3,14 @@
 #include <httplib.h>
 #undef _res  // <resolv.h> makes this a macro, which Eigen uses as a name
 
-#include <cstdio>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "server/admission.hpp"
+#include "server/film_stream.hpp"
+#include "server/http_body.hpp"
 #include "server/openapi.hpp"
 #include "server/problem.hpp"
 #include "server/requests.hpp"
@@ -21,14 +26,6 @@ using nlohmann::json;
 constexpr int kSpareThreads = 8;  // for what is answered at once, also when all jobs are taken
 constexpr int kRetryAfter = 5;    // s
 
-constexpr const char* kJsonType = "application/json";
-
-std::string content_type_of(std::string_view name) {
-    if (name.ends_with(".css")) return "text/css; charset=utf-8";
-    if (name.ends_with(".js")) return "text/javascript; charset=utf-8";
-    return "text/html; charset=utf-8";
-}
-
 void answer(httplib::Response& response, const json& body) { response.set_content(body.dump(), kJsonType); }
 
 void answer(httplib::Response& response, const Problem& problem) {
@@ -37,63 +34,12 @@ void answer(httplib::Response& response, const Problem& problem) {
     response.set_content(problem.body.dump(), kProblemType);
 }
 
-class NotJson : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-class WrongType : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
-
-json body_of(const httplib::Request& request) {
-    const std::string type = request.get_header_value("Content-Type");
-    if (type.substr(0, type.find(';')) != kJsonType)
-        throw WrongType("\"" + type + "\" is not application/json");
-    try {
-        return json::parse(request.body);
-    } catch (const json::exception& error) {
-        throw NotJson(error.what());
-    }
-}
-
-Problem http_problem_of(const std::exception& error) {
-    if (dynamic_cast<const NotJson*>(&error) != nullptr) return problem(400, "Bad Request", error.what());
-    if (dynamic_cast<const WrongType*>(&error) != nullptr)
-        return problem(415, "Unsupported Media Type", error.what());
-    return problem_of(error);
-}
-
-void log_failure(const std::exception& error) {
-    std::fprintf(stderr, "viaface: %s\n", describe(error).c_str());
-}
-
 // What a job needs until its stream ends.
 struct VideoJob {
     VideoRequest request;
     std::shared_ptr<const Talker> talker;
     std::unique_ptr<Admission::Place> place;
 };
-
-// The film, piece by piece, to a client; false cuts the connection without the closing chunk.
-bool stream(const VideoJob& job, httplib::DataSink& sink) {
-    try {
-        if (!job.place->wait_for_turn([&] { return sink.is_writable(); })) return false;
-        const View& view = job.request.say.view;
-        const auto film = open_film(
-            FilmSpec{view.width, view.height, job.request.say.fps}, [&](std::span<const std::uint8_t> piece) {
-                return sink.write(reinterpret_cast<const char*>(piece.data()), piece.size());
-            });
-        say(job.request.say, *job.talker, *film);
-        sink.done();
-        return true;
-    } catch (const ClientLeft&) {
-        return false;
-    } catch (const std::exception& error) {
-        log_failure(error);
-        return false;
-    }
-}
 
 }  // namespace
 
@@ -108,8 +54,21 @@ class Service::Routes {
         add_page();
     }
 
+    void listen() {
+        listening_ = true;
+        if (!stopping_) server.listen_after_bind();
+        listening_ = false;
+    }
+    // The library forgets a stop that comes before it listens.
+    void stop() {
+        stopping_ = true;
+        while (listening_ && !server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        server.stop();
+    }
+
     httplib::Server server;
     int port = 0;
+    std::vector<std::string> served;  // "GET /healthz", ...
 
   private:
     void bound_server(const ServiceOptions& options) {
@@ -121,12 +80,12 @@ class Service::Routes {
             try {
                 std::rethrow_exception(thrown);
             } catch (const std::exception& error) {
-                const Problem told = http_problem_of(error);
+                const Problem told = problem_of(error);
                 if (told.status == 500) log_failure(error);
                 answer(response, told);
             }
         });
-        server.set_error_handler([](const auto& request, auto& response) { explain(request, response); });
+        server.set_error_handler([this](const auto& request, auto& response) { explain(request, response); });
         port = options.port;
         if (port == 0) {
             port = server.bind_to_any_port(options.host);
@@ -140,59 +99,95 @@ class Service::Routes {
     }
 
     // Statuses that the library sets by itself.
-    static void explain(const httplib::Request& request, httplib::Response& response) {
+    void explain(const httplib::Request& request, httplib::Response& response) const {
         if (!response.body.empty()) return;
-        const int status = response.status;
-        if (status == 404) {
-            answer(response,
-                   problem(404, "Not Found",
-                           request.method + " " + request.path + " is not served; see /openapi.json"));
-        } else if (status == 413) {
-            answer(response, problem(413, "Content Too Large",
-                                     "a body holds at most " + std::to_string(kLargestBody) + " bytes"));
+        const std::string allowed = methods_of(request.path);
+        if (response.status != 404) {
+            answer(response, problem(response.status, "Request not served", "the request could not be read"));
+        } else if (allowed.empty()) {
+            answer(response, problem(404, "Not Found", request.path + " is not served; see /openapi.json"));
         } else {
-            answer(response, problem(status, "Request not served", "the request could not be read"));
+            response.set_header("Allow", allowed);
+            answer(response,
+                   problem(405, "Method Not Allowed", request.path + " is served to " + allowed + " alone"));
         }
     }
 
+    std::string methods_of(const std::string& path) const {
+        for (const auto& route : served) {
+            const std::size_t space = route.find(' ');
+            if (route.substr(space + 1) == path) return route.substr(0, space);
+        }
+        return {};
+    }
+
+    void get(const std::string& path, const httplib::Server::Handler& handler) {
+        served.push_back("GET " + path);
+        server.Get(path, handler);
+    }
+    void post(const std::string& path, const std::function<void(const json&, httplib::Response&)>& handler) {
+        served.push_back("POST " + path);
+        server.Post(path, [handler](const auto& request, auto& response, const auto& reader) {
+            handler(json_body(request, reader), response);
+        });
+    }
+
     void add_gets() {
-        server.Get("/healthz", [this](const auto&, auto& response) {
+        get("/healthz", [this](const auto&, auto& response) {
             answer(
                 response,
                 json{{"status", "ok"}, {"running", admission_.running()}, {"waiting", admission_.waiting()}});
         });
-        server.Get("/openapi.json", [](const auto&, auto& response) { answer(response, openapi()); });
-        server.Get("/v1/voices", [](const auto&, auto& response) {
+        get("/openapi.json", [](const auto&, auto& response) { answer(response, openapi()); });
+        get("/v1/voices", [](const auto&, auto& response) {
             json voices = json::array();
             for (const auto& name : FliteVoice::names())
                 voices.push_back({{"name", name}, {"language", "en"}});
             answer(response, json{{"voices", voices}, {"default", kDefaultVoice}});
         });
-        server.Get("/v1/talkers", [this](const auto&, auto& response) {
-            json talkers = json::array();
-            for (const auto& name : shelf_.names()) talkers.push_back(shelf_.description(name));
-            answer(response, json{{"talkers", talkers}, {"default", kDefaultTalker}});
+        get("/v1/talkers", [this](const auto&, auto& response) {
+            answer(response, json{{"talkers", descriptions()}, {"default", kDefaultTalker}});
         });
     }
 
+    json descriptions() const {
+        json talkers = json::array();
+        try {
+            for (const auto& name : shelf_.names()) talkers.push_back(shelf_.description(name));
+        } catch (const InputError&) {  // in a file of ours: nothing that the client could mend
+            std::throw_with_nested(std::runtime_error("listing the talkers"));
+        }
+        return talkers;
+    }
+
     void add_posts() {
-        server.Post("/v1/videos", [this](const auto& request, auto& response) {
+        post("/v1/videos", [this](const json& body, auto& response) {
             auto job = std::make_shared<VideoJob>();
-            job->request = video_request_of(body_of(request));
+            job->request = video_request_of(body);
             const Script checked(job->request.say.speech);
             job->talker = shelf_.load(job->request.talker);
             job->place = admission_.reserve();
+            response.status = 200;
             response.set_chunked_content_provider(
-                kStreamType, [job](std::size_t, httplib::DataSink& sink) { return stream(*job, sink); });
+                stream_type(job->request.format),
+                [this, job](std::size_t, httplib::DataSink& client) { return stream(*job, client); });
         });
-        server.Post("/v1/viapoints", [this](const auto& request, auto& response) {
-            const VideoRequest asked = viapoints_request_of(body_of(request));
+        post("/v1/viapoints", [this](const json& body, auto& response) {
+            const VideoRequest asked = viapoints_request_of(body);
             const Script script(asked.say.speech);
             const auto talker = shelf_.load(asked.talker);
             const auto place = admission_.reserve();
-            place->wait_for_turn([] { return true; });
+            if (!place->wait_for_turn([this] { return !stopping_; }))
+                throw HttpError(503, "Service Unavailable", "the service stops");
             answer(response, viapoints_json(script, asked.say.speech, *talker));
         });
+    }
+
+    // False cuts the connection.
+    bool stream(const VideoJob& job, httplib::DataSink& client) {
+        if (!job.place->wait_for_turn([&] { return !stopping_ && client.is_writable(); })) return false;
+        return stream_film(film_of(job.request), client, stopping_,
+                           [&](FilmWriter& film) { say(job.request.say, *job.talker, film); });
     }
 
     void add_page() {
@@ -200,20 +195,32 @@ class Service::Routes {
             const auto serve = [&file](const auto&, auto& response) {
                 response.set_content(file.content.data(), file.content.size(), content_type_of(file.name));
             };
-            server.Get("/" + std::string(file.name), serve);
-            if (file.name == "index.html") server.Get("/", serve);
+            get("/" + std::string(file.name), serve);
+            if (file.name == "index.html") get("/", serve);
         }
     }
 
+    std::atomic<bool> listening_ = false, stopping_ = false;
     TalkerShelf shelf_;
     Admission admission_;
 };
+
+std::string content_type_of(std::string_view page_file) {
+    if (page_file.ends_with(".css")) return "text/css; charset=utf-8";
+    if (page_file.ends_with(".js")) return "text/javascript; charset=utf-8";
+    return "text/html; charset=utf-8";
+}
+
+const char* stream_type(FilmFormat format) {
+    return format == FilmFormat::kMkv ? "video/matroska" : "video/mp4";
+}
 
 Service::Service(const ServiceOptions& options) : routes_(std::make_unique<Routes>(options)) {}
 Service::~Service() = default;
 
 int Service::port() const { return routes_->port; }
-void Service::listen() { routes_->server.listen_after_bind(); }
-void Service::stop() { routes_->server.stop(); }
+void Service::listen() { routes_->listen(); }
+void Service::stop() { routes_->stop(); }
+std::vector<std::string> Service::routes() const { return routes_->served; }
 
 }  // namespace viaface

@@ -1,6 +1,8 @@
 // The HTTP service. POST /v1/videos streams a video as it is made, POST /v1/viapoints answers the via points;
 // GET /v1/talkers, /v1/voices, /healthz, /openapi.json and the page at /.
 //
+// A service that stops cuts the streams that it has begun.
+//
 // Threads: one per connection, at most running + waiting + kSpareThreads; talkers are loaded once and shared
 // as const; the Admission bounds the jobs. A job runs in its connection's thread; its film encodes in one
 // more.
@@ -10,11 +12,16 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "synth/film/film_spec.hpp"
 
 namespace viaface {
 
-inline constexpr std::size_t kLargestBody = 128 * 1024;  // bytes
-inline constexpr const char* kStreamType = "video/mp4; codecs=\"avc1.640020, mp4a.40.2\"";
+inline constexpr const char* kJsonType = "application/json";
+const char* stream_type(FilmFormat format);               // video/mp4 or video/matroska [RFC 9559]
+std::string content_type_of(std::string_view page_file);  // by its ending
 
 struct ServiceOptions {
     std::string host = "127.0.0.1";
@@ -32,7 +39,9 @@ class Service {
 
     int port() const;
     void listen();  // until stop()
-    void stop();    // from any thread, also from a signal's
+    void stop();    // from any thread
+
+    std::vector<std::string> routes() const;  // "GET /healthz", ...
 
   private:
     class Routes;

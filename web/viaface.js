@@ -3,13 +3,24 @@
 const $ = (id) => document.getElementById(id);
 const secondsShown = 3; // of the curve, around the moment being played
 const video = $("video"), curve = $("curve");
+// The stream's own profiles; the level is the highest, as it depends on the size.
+const streamType = 'video/mp4; codecs="avc1.640034, mp4a.40.2"';
 let track = null; // the answer of /v1/viapoints that belongs to the video
+let underway = null; // the AbortController of what is being asked for
+
+async function inWords(answer) {
+  const problem = await answer.json().catch(() => ({}));
+  if (answer.status === 503) return `The service is busy; try again in ${answer.headers.get("Retry-After") || "some"} seconds.`;
+  if (problem.field) return `${problem.field}: “${problem.value}” cannot be used. Allowed: ${problem.allowed}.`;
+  return problem.detail || `The service answered ${answer.status}.`;
+}
 
 async function ask(path, options) {
-  const answer = await fetch(path, options);
-  if (answer.ok) return answer;
-  const problem = await answer.json().catch(() => ({ title: answer.statusText }));
-  throw new Error(problem.detail || problem.title);
+  const answer = await fetch(path, options).catch((error) => {
+    throw error.name === "AbortError" ? error : new Error("The service does not answer.");
+  });
+  if (!answer.ok) throw new Error(await inWords(answer));
+  return answer;
 }
 
 const post = (path, body, signal) =>
@@ -21,23 +32,28 @@ function fill(select, names, chosen) {
 
 // Plays a fragmented MP4 while it is being made; browsers without Media Source Extensions get it whole.
 async function play(answer) {
-  const type = answer.headers.get("Content-Type");
-  if (!window.MediaSource || !MediaSource.isTypeSupported(type)) {
+  if (!window.MediaSource || !MediaSource.isTypeSupported(streamType)) {
     video.src = URL.createObjectURL(await answer.blob());
     return video.play();
   }
   const source = new MediaSource();
   video.src = URL.createObjectURL(source);
   await once(source, "sourceopen");
-  const buffer = source.addSourceBuffer(type);
+  URL.revokeObjectURL(video.src);
+  const buffer = source.addSourceBuffer(streamType);
   const reader = answer.body.getReader();
   let started = null;
-  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
-    buffer.appendBuffer(piece.value);
-    await once(buffer, "updateend");
-    started ??= video.play();
+  try {
+    for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+      buffer.appendBuffer(piece.value);
+      await once(buffer, "updateend");
+      started ??= video.play();
+    }
+  } catch (error) {
+    throw error.name === "AbortError" ? error : new Error("The film broke off before its end.");
+  } finally {
+    if (source.readyState === "open") source.endOfStream();
   }
-  source.endOfStream();
   return started;
 }
 
@@ -125,23 +141,49 @@ function follow() {
   requestAnimationFrame(follow);
 }
 
+function tell(text, wrong = false) {
+  $("message").className = wrong ? "error" : "";
+  $("message").textContent = text;
+}
+
+// A new request ends the one underway: the service stops its work when the connection closes.
 async function speak(event) {
   event.preventDefault();
+  underway?.abort();
+  const mine = (underway = new AbortController());
   const said = { text: $("text").value, voice: $("voice").value, talker: $("talker").value };
-  $("speak").disabled = true;
-  $("message").className = "";
-  $("message").textContent = "Speaking …";
+  $("stop").hidden = false;
+  $("text").removeAttribute("aria-invalid");
+  tell("Speaking …");
   try {
-    track = await (await post("/v1/viapoints", said)).json();
+    const answer = await (await post("/v1/viapoints", said, mine.signal)).json();
+    const film = await post("/v1/videos", { ...said, view: { yaw: Number($("view").value) } }, mine.signal);
+    track = answer;
     $("result").hidden = false;
-    await play(await post("/v1/videos", { ...said, view: { yaw: Number($("view").value) } }));
-    $("message").textContent = "";
+    await play(film);
+    if (underway === mine) tell("");
   } catch (error) {
-    $("message").className = "error";
-    $("message").textContent = error.message;
+    if (underway !== mine || error.name === "AbortError") return;
+    tell(error.message, true);
+    if (error.message.startsWith("text")) {
+      $("text").setAttribute("aria-invalid", "true");
+      $("text").focus();
+    }
   } finally {
-    $("speak").disabled = false;
+    if (underway === mine) {
+      underway = null;
+      $("stop").hidden = true;
+    }
   }
+}
+
+function stop() {
+  underway?.abort();
+  underway = null;
+  video.pause();
+  $("stop").hidden = true;
+  $("speak").focus();
+  tell("Stopped.");
 }
 
 async function start() {
@@ -150,11 +192,14 @@ async function start() {
     fill($("voice"), voices.voices.map((voice) => voice.name), voices.default);
     fill($("talker"), talkers.talkers.map((talker) => talker.name), talkers.default);
     $("request").addEventListener("submit", speak);
+    $("stop").addEventListener("click", stop);
+    $("text").addEventListener("keydown", (event) => {
+      if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) $("request").requestSubmit();
+    });
     $("speak").disabled = false;
     follow();
   } catch (error) {
-    $("message").className = "error";
-    $("message").textContent = error.message;
+    tell(error.message, true);
   }
 }
 

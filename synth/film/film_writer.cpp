@@ -56,7 +56,7 @@ ContainerRecipe mp4_stream(FrameRate fps) {
             true};
 }
 
-ContainerRecipe mkv_file(int sample_rate) { return {libav::ffv1(), "pcm_s16le", sample_rate, {}}; }
+ContainerRecipe mkv(int sample_rate) { return {libav::ffv1(), "pcm_s16le", sample_rate, {}}; }
 
 class ContainerFilm : public FilmWriter {
   public:
@@ -193,14 +193,26 @@ class PngFolder : public FilmWriter {
     std::optional<Container> sound_file_;
 };
 
-std::unique_ptr<FilmWriter> open_inner(const FilmSpec& spec, const fs::path& output) {
+std::unique_ptr<FilmWriter> open_file(const FilmSpec& spec, const fs::path& output) {
     switch (spec.format) {
         case FilmFormat::kMp4:
             return std::make_unique<ContainerFilm>(spec, mp4_file(), "mp4", output);
         case FilmFormat::kMkv:
-            return std::make_unique<ContainerFilm>(spec, mkv_file(spec.sample_rate), "matroska", output);
+            return std::make_unique<ContainerFilm>(spec, mkv(spec.sample_rate), "matroska", output);
         case FilmFormat::kPng:
             return std::make_unique<PngFolder>(spec, output);
+    }
+    throw std::logic_error("unknown film format");
+}
+
+std::unique_ptr<FilmWriter> open_stream(const FilmSpec& spec, FilmSink sink) {
+    switch (spec.format) {
+        case FilmFormat::kMp4:
+            return std::make_unique<ContainerFilm>(spec, mp4_stream(spec.fps), "mp4", std::move(sink));
+        case FilmFormat::kMkv:
+            return std::make_unique<ContainerFilm>(spec, mkv(spec.sample_rate), "matroska", std::move(sink));
+        case FilmFormat::kPng:
+            throw InputError("format", "png", "mp4 or mkv for a stream");
     }
     throw std::logic_error("unknown film format");
 }
@@ -209,14 +221,12 @@ std::unique_ptr<FilmWriter> open_inner(const FilmSpec& spec, const fs::path& out
 
 std::unique_ptr<FilmWriter> open_film(const FilmSpec& spec, const std::filesystem::path& output) {
     validate(spec);
-    return std::make_unique<OverlappedWriter>(open_inner(spec, output));
+    return std::make_unique<OverlappedWriter>(open_file(spec, output));
 }
 
 std::unique_ptr<FilmWriter> open_film(const FilmSpec& spec, FilmSink sink) {
     validate(spec);
-    if (spec.format != FilmFormat::kMp4) throw InputError("format", "mkv or png as a stream", "mp4");
-    return std::make_unique<OverlappedWriter>(
-        std::make_unique<ContainerFilm>(spec, mp4_stream(spec.fps), "mp4", std::move(sink)));
+    return std::make_unique<OverlappedWriter>(open_stream(spec, std::move(sink)));
 }
 
 }  // namespace viaface

@@ -10,8 +10,8 @@
 //   its sound, later ones at most 100 ms. Players do not heed the edit lists of fragmented files alike (libav
 //   plays the priming), so the priming packet is left out: every decoder starts at 0, and the first 21 ms of
 //   the sound fade in. Of AAC's last block a decoder may play up to 21 ms of silence beyond the end.
-// - mkv: FFV1 plays wherever libav does (ffmpeg, VLC, mpv), not in browsers; the container rounds stamps to 1
-// ms.
+// - mkv: FFV1 plays wherever libav does (ffmpeg, VLC, mpv), not in browsers; the container rounds stamps to
+//   1 ms. As a stream it tells neither its length nor where to seek.
 //
 // Encoders run with one thread each and write neither versions nor times, so that bytes repeat; they do not
 // depend on how the sound is cut into pieces.
@@ -49,7 +49,7 @@ class ClientLeft : public std::runtime_error {
 };
 
 // Both encode in a thread of their own (overlapped_writer.hpp), and call the sink there. InputError as
-// validate(); for a stream any format but mp4; for a file an output that cannot be written; for PNG a folder
+// validate(); for a stream png; for a file an output that cannot be written; for PNG a folder
 // that holds files.
 std::unique_ptr<FilmWriter> open_film(const FilmSpec& spec, const std::filesystem::path& output);
 std::unique_ptr<FilmWriter> open_film(const FilmSpec& spec, FilmSink sink);

@@ -12,6 +12,10 @@ Script::Script(SpeechRequest request) : request_(std::move(request)), voice_(req
         throw InputError(request_.phones.empty() ? "text" : "phones", request_.phones,
                          "one of text and phones, not empty");
     }
+    if (request_.phones.size() > kLongestText) {
+        throw InputError("phones", std::to_string(request_.phones.size()) + " bytes",
+                         "at most " + std::to_string(kLongestText) + " bytes");
+    }
     if (request_.phones.empty()) {
         sentences_ = sentences(request_.text);
     } else {

@@ -13,8 +13,9 @@ namespace viaface {
 
 // What is said and who is heard. Exactly one of text and phones is given.
 struct SpeechRequest {
-    std::string text;    // English; see synth/speech/text.hpp for its limits
-    std::string phones;  // "ax b:90 aa1:220"; see synth/speech/requested_phones.hpp
+    std::string text;  // English; see synth/speech/text.hpp for its limits
+    std::string
+        phones;  // "ax b:90 aa1:220"; see synth/speech/requested_phones.hpp; at most kLongestText bytes
     std::string voice = std::string(kDefaultVoice);
     Prosody prosody;
 };

@@ -9,7 +9,7 @@
 
 #include "base/bytes.hpp"
 #include "synth/film/film_writer.hpp"
-#include "synth/picture/view.hpp"
+#include "synth/picture/portrait.hpp"
 #include "synth/render/animation.hpp"
 #include "synth/say/recital.hpp"
 #include "synth/talker/talker.hpp"
@@ -22,6 +22,7 @@ struct SayRequest {
     FrameRate fps;
     std::uint64_t seed = 1;  // of the blinks and of the head's motion
     double head_motion = 0;  // degrees, 0 to HeadSway::kWidest: how far the head turns by itself
+    Renderer renderer = Renderer::kRaster;
 };
 
 // Who looks on; empty ones are not called. All are called from the thread that calls say().

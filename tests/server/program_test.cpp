@@ -11,8 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/whole_file.hpp"
+#include "server/openapi.hpp"
 #include "synth/film/media_reader.hpp"
 #include "synth/speech/text_grid.hpp"
+#include "tests/server/schema_check.hpp"
 #include "viapoints/motion_csv.hpp"
 
 namespace viaface {
@@ -169,6 +171,16 @@ TEST_F(Program, LabelsAreThePhonesThatDroveTheFace) {
     EXPECT_EQ(labels.end, report["duration_s"].get<double>());
 }
 
+TEST_F(Program, TheReportIsAsTheServiceDescribesIt) {
+    const Outcome made =
+        run({"say", "--phones", "ax b aa1", "--size", "32x32", "-o", "x.mkv", "--json", "-"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const json described = openapi();
+    const auto faults =
+        SchemaCheck(described).faults(described["components"]["schemas"]["Report"], json::parse(made.out));
+    EXPECT_EQ(faults, std::vector<std::string>{});
+}
+
 TEST_F(Program, ReportedDifferenceIsThatOfTheTwoMotionFiles) {
     make({"-o", "x.mp4", "--json", "x.json", "--motion", "drawn.csv", "--commanded", "commanded.csv"});
     const json report = json::parse(content("x.json"));
@@ -256,7 +268,8 @@ TEST_F(Program, ExplainsItself) {
         EXPECT_GT(help.out.size(), 100u) << (command.empty() ? "viaface" : command[0]);
     }
     const std::string say_help = run({"say", "--help"}).out;
-    for (const char* limit : {"20000", "16 to 4096", "15 to 120", "-180 to 180", "0.5 to 2"})
+    for (const char* limit :
+         {"raster", "60 s", "20000", "16 to 4096", "15 to 120", "-180 to 180", "0.5 to 2"})
         EXPECT_NE(say_help.find(limit), std::string::npos) << limit;
 }
 
@@ -318,6 +331,8 @@ std::vector<Refused> refused_options() {
         {hi({"--rate", "nan"}), {"rate", "nan", "0.5 to 2"}},
         {hi({"--background", "plaid"}), {"background", "plaid", "#rrggbb"}},
         {hi({"--seed", "-1"}), {"seed", "-1"}},
+        {hi({"--seed", "many"}), {"seed", "many", "whole number"}},
+        {hi({"--renderer", "gl"}), {"renderer", "gl", "raster or osmesa"}},
         {hi({"--colour", "red"}), {"--colour"}},
         {hi({"--labels", "/nowhere/x.TextGrid"}), {"labels", "/nowhere/x.TextGrid", "folder"}},
         {hi({"--motion", "/nowhere/x.csv"}), {"motion", "/nowhere/x.csv", "folder"}},

@@ -2,55 +2,19 @@
 #include "server/service.hpp"
 
 #include <gtest/gtest.h>
-#include <httplib.h>
 
-#include <chrono>
 #include <filesystem>
 #include <future>
-#include <nlohmann/json.hpp>
-#include <thread>
 
+#include "server/http_body.hpp"
+#include "server/json_fields.hpp"
 #include "synth/film/media_reader.hpp"
+#include "tests/server/served.hpp"
 
 namespace viaface {
 namespace {
 
 using nlohmann::json;
-
-ServiceOptions loopback() {
-    ServiceOptions options;
-    options.port = 0;
-    options.talkers = std::string(VIAFACE_SOURCE_DIR) + "/talkers";
-    return options;
-}
-
-class Served {
-  public:
-    explicit Served(const ServiceOptions& options = loopback())
-        : service_(options), listening_([this] { service_.listen(); }) {}
-    ~Served() {
-        service_.stop();
-        listening_.join();
-    }
-    httplib::Client client() const {
-        httplib::Client client("127.0.0.1", service_.port());
-        client.set_read_timeout(120);
-        return client;
-    }
-    json get(const std::string& path) const { return json::parse(client().Get(path)->body); }
-
-  private:
-    Service service_;
-    std::thread listening_;
-};
-
-httplib::Result post(httplib::Client client, const std::string& path, const json& body) {
-    return client.Post(path, body.dump(), "application/json");
-}
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 const json kSmall = {{"text", "My mother bought a boat."}, {"size", "128x128"}, {"fps", 25}};
 
@@ -76,6 +40,26 @@ TEST(Service, StreamsAVideoThatDecodesAndMatchesItsViaPoints) {
     EXPECT_EQ(count, std::ceil(duration * 25 - 1e-9));
     const auto sound = read_sound(bytes_of(video->body), 16000);
     EXPECT_NEAR(static_cast<double>(sound.size()) / 16000, count / 25.0, 1.0 / 25);
+}
+
+TEST(Service, StreamsLosslessMatroskaToo) {
+    const Served served;
+    json asked = kSmall;
+    asked["format"] = "mkv";
+    const auto video = post(served.client(), "/v1/videos", asked);
+    ASSERT_EQ(video->status, 200) << video->body;
+    EXPECT_EQ(video->get_header_value("Content-Type"), "video/matroska");
+    EXPECT_EQ(video->get_header_value("Transfer-Encoding"), "chunked");
+    const auto lossy = post(served.client(), "/v1/videos", kSmall);
+    FrameReader frames(bytes_of(video->body)), others(bytes_of(lossy->body));
+    int count = 0;
+    while (frames.next()) {
+        EXPECT_TRUE(others.next()) << count;
+        ++count;
+    }
+    EXPECT_FALSE(others.next());
+    EXPECT_GT(count, 25);
+    EXPECT_EQ(read_sound(bytes_of(video->body), 16000).size(), static_cast<std::size_t>(count) * 16000 / 25);
 }
 
 TEST(Service, FourAtOnceGiveEqualBytes) {
@@ -112,6 +96,7 @@ TEST(Service, RefusesRubbishAsProblemsThatNameTheField) {
         {{{"text", "Hi."}, {"talker", "nobody"}}, 422, "talker"},
         {{{"text", "Hi."}, {"talker", "../momo"}}, 422, "talker"},
         {{{"text", "Hi."}, {"format", "gif"}}, 422, "format"},
+        {{{"text", "Hi."}, {"format", "png"}}, 422, "format"},
         {{{"text", "Hi."}, {"size", "0x0"}}, 422, "size"},
         {{{"text", "Hi."}, {"size", "100000x100000"}}, 422, "size"},
         {{{"text", "Hi."}, {"size", 512}}, 422, "size"},
@@ -139,9 +124,36 @@ TEST(Service, RefusesWhatIsNotJsonTooLongOrElsewhere) {
     EXPECT_EQ(client.Post("/v1/videos", "{\"text\": \"\xff\"}", "application/json")->status, 400);
     EXPECT_EQ(client.Post("/v1/videos", "text=hi", "application/x-www-form-urlencoded")->status, 415);
     EXPECT_EQ(client.Post("/v1/videos", std::string(kLargestBody + 1, ' '), "application/json")->status, 413);
+    EXPECT_EQ(client.Post("/v1/videos", std::string(kDeepestJson + 1, '['), "application/json")->status, 400);
+    EXPECT_EQ(client.Post("/v1/videos", std::string(100000, '['), "application/json")->status, 400);
     const auto missing = client.Get("/v1/nothing");
     EXPECT_EQ(missing->status, 404);
     EXPECT_EQ(missing->get_header_value("Content-Type"), "application/problem+json");
+}
+
+TEST(Service, RefusesWhatIsTooLargeHoweverItIsSent) {
+    const Served served;
+    const std::string spaces(10'000'000, ' ');
+    auto compressed = served.client();
+    compressed.set_compress(true);
+    EXPECT_EQ(compressed.Post("/v1/videos", spaces, "application/json")->status, 413);
+    const auto in_chunks = [&](std::size_t offset, httplib::DataSink& sink) {
+        if (offset >= 2 * kLargestBody) sink.done();
+        return offset >= 2 * kLargestBody || sink.write(spaces.data(), 10000);
+    };
+    const auto chunked = served.client().Post("/v1/viapoints", in_chunks, "application/json");
+    ASSERT_TRUE(chunked);
+    EXPECT_EQ(chunked->status, 413);
+    EXPECT_EQ(json::parse(chunked->body)["status"], 413);
+}
+
+TEST(Service, TellsWhichMethodAPathIsServedTo) {
+    const Served served;
+    const auto answer = served.client().Delete("/v1/videos");
+    EXPECT_EQ(answer->status, 405);
+    EXPECT_EQ(answer->get_header_value("Allow"), "POST");
+    EXPECT_EQ(json::parse(answer->body)["status"], 405);
+    EXPECT_EQ(served.client().Get("/v1/viapoints")->get_header_value("Allow"), "POST");
 }
 
 TEST(Service, DescribesItself) {
@@ -165,30 +177,71 @@ json long_request() {
     return {{"text", text}, {"size", "128x128"}};
 }
 
-bool becomes(const std::function<bool()>& condition) {
-    for (int tenth = 0; tenth < 300; ++tenth) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+// Asks for a long film and leaves once some of it has come; with 0, once it waits for its turn.
+class Leaving {
+  public:
+    Leaving(const Served& served, std::size_t most) : client_(served.client()) {
+        request_.method = "POST";
+        request_.path = "/v1/videos";
+        request_.body = long_request().dump();
+        request_.set_header("Content-Type", "application/json");
+        request_.content_receiver = [this, most](const char*, std::size_t size, std::uint64_t,
+                                                 std::uint64_t) { return (received_ += size) < most; };
+        asking_ = std::thread([this] { answered_ = static_cast<bool>(client_.send(request_)); });
     }
-    return false;
-}
+    ~Leaving() { leave(); }
+    void leave() {
+        if (!asking_.joinable()) return;
+        client_.stop();
+        asking_.join();
+    }
+    std::size_t received() const { return received_; }
+
+  private:
+    httplib::Client client_;
+    httplib::Request request_;
+    std::atomic<std::size_t> received_ = 0;
+    bool answered_ = false;
+    std::thread asking_;
+};
 
 TEST(Service, AClientThatLeavesStopsItsWork) {
     const Served served;
-    auto client = served.client();
-    std::size_t received = 0;
-    httplib::Request request;
-    request.method = "POST";
-    request.path = "/v1/videos";
-    request.body = long_request().dump();
-    request.set_header("Content-Type", "application/json");
-    request.content_receiver = [&](const char*, std::size_t size, std::uint64_t, std::uint64_t) {
-        return (received += size) < 20000;
-    };
-    const auto answer = client.send(request);
-    EXPECT_FALSE(answer);
-    client.stop();
+    Leaving leaving(served, 20000);
+    EXPECT_TRUE(becomes([&] { return leaving.received() >= 20000; }));
+    leaving.leave();
     EXPECT_TRUE(becomes([&] { return served.get("/healthz")["running"] == 0; }));
+}
+
+TEST(Service, AClientThatLeavesTheQueueFreesItsPlace) {
+    const Served served;
+    Leaving busy(served, SIZE_MAX);
+    EXPECT_TRUE(becomes([&] { return served.get("/healthz")["running"] == 1; }));
+    Leaving waiting(served, SIZE_MAX);
+    EXPECT_TRUE(becomes([&] { return served.get("/healthz")["waiting"] == 1; }));
+    waiting.leave();
+    EXPECT_TRUE(becomes([&] { return served.get("/healthz")["waiting"] == 0; }));
+    EXPECT_EQ(served.get("/healthz")["running"], 1);
+}
+
+TEST(Service, StopsBeforeItListensToo) {
+    for (int i = 0; i < 3; ++i) Served().stop();
+    Service never(loopback());
+    never.stop();
+    never.listen();  // returns
+}
+
+TEST(Service, StopsWithoutWaitingForItsFilms) {
+    Served served;
+    std::string film;
+    std::thread job([&, client = served.client()]() mutable {
+        const auto answer = client.Post("/v1/videos", long_request().dump(), "application/json");
+        if (answer) film = "whole";
+    });
+    EXPECT_TRUE(becomes([&] { return served.get("/healthz")["running"] == 1; }));
+    served.stop();
+    job.join();
+    EXPECT_EQ(film, "");  // cut
 }
 
 TEST(Service, AFullQueueAnswers503WithRetryAfter) {

@@ -1,6 +1,7 @@
 // The page in a real browser: a click on Speak, and a video that plays with sound while the labels move.
 
 #include <gtest/gtest.h>
+#include <httplib.h>
 
 #include <cstdlib>
 #include <thread>
@@ -28,6 +29,16 @@ class Page : public testing::Test {
         if (!service_) return;
         service_->stop();
         listening_.join();
+    }
+
+    int running() const {
+        httplib::Client client("127.0.0.1", service_->port());
+        return nlohmann::json::parse(client.Get("/healthz")->body)["running"];
+    }
+    bool becomes_idle() const {
+        for (int tenth = 0; tenth < 300 && running() != 0; ++tenth)
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        return running() == 0;
     }
 
     std::unique_ptr<Service> service_;
@@ -59,6 +70,48 @@ TEST_F(Page, AClickSpeaksAndTheVideoPlaysWithSound) {
     EXPECT_NEAR(browser.run("return document.querySelector('#video').duration;").get<double>(),
                 browser.run(kSpokenDuration).get<double>(), 1.5 / 30);
     if (const char* picture = std::getenv("VIAFACE_PAGE_PICTURE")) browser.save_screenshot(picture);
+}
+
+// Several minutes of speech, made slower than it is sent.
+constexpr const char* kLongText =
+    "document.querySelector('#text').value = 'This goes on and on, sentence after sentence. '.repeat(40);";
+
+TEST_F(Page, PlaysBeforeTheStreamHasEnded) {
+    WebDriver& browser = *browser_;
+    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
+    browser.run(kLongText);
+    browser.click("#speak");
+    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.3", 60));
+    const double early = browser.run("return document.querySelector('#video').currentTime;");
+    EXPECT_TRUE(browser.wait_until(
+        "document.querySelector('#video').currentTime > " + std::to_string(early + 0.3), 30));
+    EXPECT_EQ(running(), 1);  // the service still makes the film that plays
+    EXPECT_TRUE(browser.run("return document.querySelector('#stop').checkVisibility();").get<bool>());
+}
+
+TEST_F(Page, StopEndsTheWorkOfTheService) {
+    WebDriver& browser = *browser_;
+    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
+    browser.run(kLongText);
+    browser.click("#speak");
+    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.1", 60));
+    browser.click("#stop");
+    EXPECT_TRUE(browser.wait_until("document.querySelector('#video').paused", 10));
+    EXPECT_TRUE(becomes_idle());
+    EXPECT_EQ(browser.run("return document.querySelector('#message').textContent;"), "Stopped.");
+}
+
+TEST_F(Page, ANewRequestEndsTheOneBefore) {
+    WebDriver& browser = *browser_;
+    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
+    browser.run(kLongText);
+    browser.click("#speak");
+    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.1", 60));
+    browser.run("document.querySelector('#text').value = 'Hello.';");
+    browser.click("#speak");
+    EXPECT_TRUE(browser.wait_until("document.querySelector('#video').ended", 60));
+    EXPECT_LT(browser.run("return document.querySelector('#video').duration;").get<double>(), 3);
+    EXPECT_TRUE(becomes_idle());
 }
 
 TEST_F(Page, SaysWhatIsWrongWithTheText) {
