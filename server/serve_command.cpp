@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <csignal>
 #include <cstdio>
 #include <thread>
@@ -32,6 +34,7 @@ class Stopper {
 int run_serve(const ServiceOptions& options) {
     Stopper stopper;
     std::signal(SIGPIPE, SIG_IGN);
+    mallopt(M_ARENA_MAX, 1);  // an arena a thread would keep the memory of a film each
     Service service(options);
     stopper.watch(service);
     std::printf("viaface: serving http://%s:%d/\n", options.host.c_str(), service.port());
