@@ -13,6 +13,8 @@ using Command = std::function<int()>;
 Command add_say(CLI::App& program);
 Command add_serve(CLI::App& program);
 Command add_talker(CLI::App& program);
+Command add_align(CLI::App& program);
+Command add_codex(CLI::App& program);
 Command add_compare(CLI::App& program);
 Command add_bench(CLI::App& program);
 Command add_via(CLI::App& program);

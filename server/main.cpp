@@ -45,9 +45,10 @@ int run(int argc, char** argv) {
     program.set_version_flag("--version", "viaface " VIAFACE_VERSION);
     program.require_subcommand(1);
     using Adder = viaface::Command (*)(CLI::App&);
-    const Adder adders[] = {viaface::add_say,     viaface::add_serve,  viaface::add_talker,
-                            viaface::add_compare, viaface::add_bench,  viaface::add_via,
-                            viaface::add_motion,  viaface::add_render, viaface::add_lips};
+    const Adder adders[] = {viaface::add_say,    viaface::add_serve, viaface::add_talker,
+                            viaface::add_align,  viaface::add_codex, viaface::add_compare,
+                            viaface::add_bench,  viaface::add_via,   viaface::add_motion,
+                            viaface::add_render, viaface::add_lips};
     std::vector<std::pair<const CLI::App*, viaface::Command>> commands;
     for (const Adder add : adders) {
         viaface::Command command = add(program);

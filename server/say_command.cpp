@@ -5,10 +5,12 @@
 #include <iostream>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "base/error.hpp"
 #include "server/commands.hpp"
 #include "server/film_output.hpp"
+#include "server/recorded_speech.hpp"
 #include "server/request_fields.hpp"
 #include "server/requests.hpp"
 #include "synth/say/report_json.hpp"
@@ -22,11 +24,16 @@ struct SayOptions {
     std::string size = "512x512", background, output = "talk.mp4", renderer = kDefaultRenderer;
     double fps = 30;
     std::string labels, motion, commanded, json;
+    RecordedSpeech recorded;
     bool quiet = false;
 };
 
 std::unique_ptr<FilmWriter> film_for(const SayOptions& options) {
-    return open_output(film_of(options.request), options.output);
+    FilmSpec spec = film_of(options.request);
+    if (const auto& recorded = options.request.say.speech.recorded) {
+        spec.sample_rate = recorded->sound.sample_rate;
+    }
+    return open_output(spec, options.output);
 }
 
 // What goes beside the film.
@@ -96,6 +103,21 @@ void check_places(const SayOptions& options) {
     }
 }
 
+// With --audio the recording is what is said.
+void listen(SayOptions& options) {
+    SpeechRequest& speech = options.request.say.speech;
+    RecordedSpeech recorded = options.recorded;
+    if (recorded.audio.empty() && recorded.transcript.empty() && recorded.labels.empty()) return;
+    if (!speech.text.empty()) {
+        throw InputError("text", speech.text,
+                         "no text when --audio is given: its words are its --transcript");
+    }
+    recorded.phones = std::exchange(speech.phones, "");
+    const HeardSpeech heard = hear(recorded);
+    if (!options.quiet) std::fputs(heard.report.c_str(), stderr);
+    speech.recorded = std::make_shared<const Utterance>(heard.utterance);
+}
+
 void complete(SayOptions& options) {
     SayRequest& say_request = options.request.say;
     set_size(say_request.view, options.size);
@@ -108,6 +130,7 @@ void complete(SayOptions& options) {
     if (say_request.speech.text == "-") {
         say_request.speech.text.assign(std::istreambuf_iterator<char>(std::cin), {});
     }
+    listen(options);
 }
 
 int run_say(SayOptions& options) {
@@ -136,6 +159,7 @@ Command add_say(CLI::App& program) {
     View& view = options->request.say.view;
     app->add_option("text", speech.text, description_of("text") + "; - reads it from stdin");
     app->add_option("--phones", speech.phones, description_of("phones"));
+    add_recorded_speech(*app, options->recorded);
     app->add_option("-o,--output", options->output,
                     "x.mp4, lossless x.mkv, a folder for PNG files, or - for fragmented MP4 on stdout")
         ->capture_default_str();

@@ -68,16 +68,21 @@ void check_take(const ConfigurationBasis& basis, const RecitationTake& take) {
 }
 
 // What is least at the nucleus of a phone: how far the lips are apart, how far the lower lip lies below the
-// upper teeth's edge (the origin), or the speed. Read off the inner lips, or off the lip markers of a basis
-// without them.
+// upper teeth's edge (the origin), or the speed. Read off the inner lips, or off the lip markers or the
+// border of a basis without them.
 class Openness {
   public:
     Openness(const ConfigurationBasis& basis, const SampledMotion& motion) : motion_(motion) {
         const auto height = [&](Point point) { return basis.modes.row(3 * point + 1); };
-        const bool inner = !height(kInnerTop).isZero(0) && !height(kInnerBottom).isZero(0);
-        lower_lip_ = height(inner ? kInnerBottom : kLipBottom);
-        lips_ = height(inner ? kInnerTop : kLipTop) - lower_lip_;
-        check(!lower_lip_.isZero(0) && !lips_.isZero(0), "a basis in which the lips do not move");
+        const std::pair<Point, Point> pairs[] = {
+            {kInnerTop, kInnerBottom}, {kLipTop, kLipBottom}, {kBorderTop, kBorderBottom}};
+        const auto moves = [&](const auto& pair) {
+            return !height(pair.first).isZero(0) && !height(pair.second).isZero(0);
+        };
+        const auto pair = std::find_if(std::begin(pairs), std::end(pairs), moves);
+        check(pair != std::end(pairs), "a basis in which the lips do not move");
+        lower_lip_ = height(pair->second);
+        lips_ = height(pair->first) - lower_lip_;
     }
 
     double at(ViaRank rank, double time_s) const {

@@ -58,6 +58,12 @@ class Target {
     std::vector<Candidate> halves() const;
 
   private:
+    // Units of the phone; where it was never recited, of phones of its class, or else of all vowels or all
+    // consonants. Sorted by place in the codex.
+    std::vector<Candidate> standing_in() const;
+    // The half units for one side: of its context's class, or of any context where there is none.
+    std::vector<Candidate> halves_for(const std::vector<Candidate>& units, bool left) const;
+
     // Those whose contexts on the asked sides are at least of the class.
     std::vector<Candidate> matching(UnitRange range, UnitLevel level, bool left, bool right) const {
         std::vector<Candidate> found;
@@ -92,10 +98,44 @@ class Target {
     UnitRange same_centre_;
 };
 
+// 0 for the phone itself, 1 for one of its class, 2 for another vowel or consonant.
+int remoteness(PhoneId phone, PhoneId wanted) {
+    if (phone == wanted) return 0;
+    if (!other_class(phone, wanted)) return 1;
+    const bool pause = phone == kPause || wanted == kPause;
+    return !pause && phone_info(phone).vowel == phone_info(wanted).vowel ? 2 : 3;
+}
+
+std::vector<Candidate> Target::standing_in() const {
+    for (int remote = 0; remote < 3; ++remote) {
+        std::vector<Candidate> found;
+        for (std::int32_t i = 0; i < std::ssize(codex_.units); ++i) {
+            const TriphoneUnit& unit = codex_.units[static_cast<std::size_t>(i)];
+            if (remoteness(unit.centre, slot_.centre) != remote) continue;
+            found.push_back({i, i, UnitLevel::kHalf, own_cost(unit) + remote * costs_.other_centre});
+        }
+        if (!found.empty()) return found;
+    }
+    return {};
+}
+
+std::vector<Candidate> Target::halves_for(const std::vector<Candidate>& units, bool left) const {
+    std::vector<Candidate> of_class, of_any;
+    for (Candidate half : units) {
+        const TriphoneUnit& unit = codex_.units[static_cast<std::size_t>(half.left)];
+        const PhoneId have = left ? unit.left : unit.right, want = left ? slot_.left : slot_.right;
+        half.cost += left ? side_cost(have == want, unit.left2, slot_.left2)
+                          : side_cost(have == want, unit.right2, slot_.right2);
+        if (other_class(have, want)) half.cost += costs_.other_context;
+        (other_class(have, want) ? of_any : of_class).push_back(half);
+    }
+    return of_class.empty() ? of_any : of_class;
+}
+
 std::vector<Candidate> Target::halves() const {
     constexpr std::size_t kPerSide = 12;
-    std::vector<Candidate> lefts = matching(same_centre_, UnitLevel::kHalf, true, false);
-    std::vector<Candidate> rights = matching(same_centre_, UnitLevel::kHalf, false, true);
+    const std::vector<Candidate> units = standing_in();
+    std::vector<Candidate> lefts = halves_for(units, true), rights = halves_for(units, false);
     keep_cheapest(lefts, kPerSide);
     keep_cheapest(rights, kPerSide);
     std::vector<Candidate> pairs;
@@ -119,7 +159,7 @@ std::vector<Candidate> candidates_of(const Codex& codex, const PhoneSlot& slot, 
     if (found.empty()) {
         throw std::runtime_error("the codex has neither " +
                                  triphone_name(slot.left, slot.centre, slot.right) +
-                                 " nor halves to make it of");
+                                 " nor phones that could stand in");
     }
     keep_cheapest(found, kMaxCandidates);
     return found;

@@ -1,12 +1,12 @@
 // Chooses the codex's units for a sequence of phones: the cheapest path through the candidates of every slot,
 // by Viterbi. All costs are in mm: what a mismatch is worth as a jump of the face.
 //
-// The centre phone is always kept. Candidates come from the first level that has any:
+// The centre phone is kept wherever it was recited at all. Candidates come from the first level that has any:
 //   exact  the triphone itself;
 //   class  contexts of the same viseme classes;
-//   half   the part up to the nucleus of one unit, of the left context (or its class), and the part after it
-//   of another, of the
-//          right context (or its class).
+//   half   the part up to the nucleus of one unit, of the left context (or its class, or else any), and the
+//          part after it of another, of the right context likewise. A phone that was never recited is spoken
+//          by one of its class here, or else by any vowel for a vowel and any consonant for a consonant.
 // Each level gives at most kMaxCandidates, the cheapest by target cost; ties go to the unit that stands first
 // in the codex.
 #pragma once
@@ -26,6 +26,8 @@ struct SelectionCosts {
     double octave = 1;           // mm per factor of 2 in duration
     double stress = 0.7;         // mm, a vowel stressed otherwise
     double velocity_s = 0.02;    // s: a jump in velocity counts as what it becomes in this time
+    double other_context = 2;    // mm, a half whose context is of another class
+    double other_centre = 3;     // mm, a half of another phone of the class; twice for one of another class
     double half = 1;             // mm, for every half unit, beside the distance of the two nuclei
 };
 
@@ -37,8 +39,7 @@ struct Candidate {
     double cost = 0;  // mm, target cost
 };
 
-// Never empty for slots that lie in the codex; throws std::runtime_error naming the triphone when even a half
-// is missing.
+// Throws std::runtime_error naming the triphone when the codex has no phone that could stand in.
 std::vector<Candidate> candidates_of(const Codex& codex, const PhoneSlot& slot, int sample_rate,
                                      const SelectionCosts& costs = {});
 

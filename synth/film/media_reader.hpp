@@ -46,6 +46,14 @@ class FrameReader {
     std::unique_ptr<Decoding> decoding_;
 };
 
+struct MonoSound {
+    int rate = 0;  // Hz; 0 when the file has no sound
+    std::vector<std::int16_t> samples;
+};
+
+// Mono at the file's own rate: 16-bit samples of one channel stay as they are.
+MonoSound read_sound(const MediaSource& source);
+
 // Mono at `rate` Hz; sample k is heard at k / rate. Sound before time 0 is cut; gaps are silent; channels are
 // mixed. Empty when the file has no sound.
 std::vector<std::int16_t> read_sound(const MediaSource& source, int rate);

@@ -117,15 +117,22 @@ std::vector<std::int16_t> resampled(std::span<const float> samples, int rate_in,
     return out;
 }
 
-}  // namespace
-
-std::vector<std::int16_t> read_sound(const MediaSource& source, int rate) {
+MonoSound read_at(const MediaSource& source, std::optional<int> rate) {
     StreamDecoder decoder(source, AVMEDIA_TYPE_AUDIO);
     if (!decoder.found()) return {};
     SoundTimeline timeline(decoder);
     while (const AVFrame* frame = decoder.next()) timeline.add(*frame);
     if (timeline.rate() == 0) return {};
-    return resampled(timeline.samples(), timeline.rate(), rate);
+    const int rate_out = rate.value_or(timeline.rate());
+    return {rate_out, resampled(timeline.samples(), timeline.rate(), rate_out)};
+}
+
+}  // namespace
+
+MonoSound read_sound(const MediaSource& source) { return read_at(source, std::nullopt); }
+
+std::vector<std::int16_t> read_sound(const MediaSource& source, int rate) {
+    return read_at(source, rate).samples;
 }
 
 }  // namespace viaface

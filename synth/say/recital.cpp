@@ -8,7 +8,7 @@ namespace viaface {
 
 Script::Script(SpeechRequest request) : request_(std::move(request)), voice_(request_.voice) {
     check_prosody(request_.prosody);
-    if (request_.text.empty() == request_.phones.empty()) {
+    if (request_.text.empty() + request_.phones.empty() + !request_.recorded != 2) {
         throw InputError(request_.phones.empty() ? "text" : "phones", request_.phones,
                          "one of text and phones, not empty");
     }
@@ -16,7 +16,9 @@ Script::Script(SpeechRequest request) : request_(std::move(request)), voice_(req
         throw InputError("phones", std::to_string(request_.phones.size()) + " bytes",
                          "at most " + std::to_string(kLongestText) + " bytes");
     }
-    if (request_.phones.empty()) {
+    if (request_.recorded) {
+        check_utterance(*request_.recorded);
+    } else if (request_.phones.empty()) {
         sentences_ = sentences(request_.text);
     } else {
         phones_ = parse_phones(request_.phones);
@@ -24,6 +26,7 @@ Script::Script(SpeechRequest request) : request_(std::move(request)), voice_(req
 }
 
 Utterance Script::utterance(std::size_t sentence) const {
+    if (request_.recorded) return *request_.recorded;
     if (!phones_.empty()) return voice_.speak_phones(phones_, request_.prosody);
     return voice_.speak(sentences_.at(sentence), request_.prosody);
 }

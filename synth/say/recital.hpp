@@ -2,6 +2,7 @@
 // via points -> minimum-jerk spline. Times inside a recital count from its own first sample.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,12 @@
 
 namespace viaface {
 
-// What is said and who is heard. Exactly one of text and phones is given.
+// What is said and who is heard. Exactly one of text, phones and recorded is given.
 struct SpeechRequest {
     std::string text;  // English; see synth/speech/text.hpp for its limits
     std::string
         phones;  // "ax b:90 aa1:220"; see synth/speech/requested_phones.hpp; at most kLongestText bytes
+    std::shared_ptr<const Utterance> recorded;  // spoken by a person; voice and prosody are without effect
     std::string voice = std::string(kDefaultVoice);
     Prosody prosody;
 };
@@ -31,7 +33,7 @@ class Script {
   private:
     SpeechRequest request_;
     FliteVoice voice_;
-    std::vector<std::string> sentences_;  // empty when phones are given
+    std::vector<std::string> sentences_;  // empty when phones or a recording are given
     std::vector<RequestedPhone> phones_;
 };
 

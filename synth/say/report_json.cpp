@@ -150,7 +150,7 @@ json report_json(const SayRequest& request, const std::string& talker, const Tim
                  const SayReport& report) {
     return {
         {"talker", talker},
-        {"voice", request.speech.voice},
+        {"voice", request.speech.recorded ? "recorded" : request.speech.voice},
         {"sample_rate", report.sample_rate},
         {"samples", report.samples},
         {"duration_s", static_cast<double>(report.samples) / report.sample_rate},

@@ -18,7 +18,8 @@ class Performance {
         : request_(request),
           film_(film),
           onlookers_(onlookers),
-          animation_(talker, request.view, request.fps, film, onlookers.frame, {.renderer = request.renderer}),
+          animation_(talker, request.view, request.fps, film, onlookers.frame,
+                     {.renderer = request.renderer}),
           blinks_(request.seed),
           head_sway_(request.head_motion, request.seed) {}
 

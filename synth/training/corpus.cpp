@@ -1,12 +1,9 @@
 #include "synth/training/corpus.hpp"
 
 #include <array>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
-#include "base/error.hpp"
-#include "base/whole_file.hpp"
 #include "viapoints/phones.hpp"
 
 namespace viaface {
@@ -99,16 +96,6 @@ std::string next_string(Unsaid& unsaid, std::vector<int>& said) {
 }
 
 }  // namespace
-
-std::vector<std::string> read_sentences(const std::filesystem::path& file) {
-    std::vector<std::string> sentences;
-    std::istringstream in(read_text(file, "corpus"));
-    for (std::string line; std::getline(in, line);) {
-        if (!line.empty() && line.front() != '#') sentences.push_back(line);
-    }
-    if (sentences.empty()) throw InputError("corpus", file.string(), "a text with a sentence per line");
-    return sentences;
-}
 
 std::vector<std::string> generated_strings() {
     Unsaid unsaid;

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "facemodel/gltf.hpp"
+#include "synth/learn/sentences.hpp"
 #include "synth/training/bake.hpp"
 #include "synth/training/corpus.hpp"
 #include "synth/training/follow_modes.hpp"

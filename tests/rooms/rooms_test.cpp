@@ -25,9 +25,16 @@ const std::map<std::string, Names> kMayInclude = {
 
 // Vendor header (prefix) -> the folders it may appear in.
 const std::map<std::string, Names> kVendorRooms = {
-    {"flite", {"synth/speech"}}, {"libav", {"synth/film"}},  {"libsw", {"synth/film"}},
-    {"GL/", {"synth/picture"}},  {"png.h", {"facemodel"}},   {"httplib", {"server"}},
-    {"CLI/", {"server"}},        {"opencv2/", {"lipmodel"}},
+    {"flite", {"synth/speech"}},
+    {"libav", {"synth/film"}},
+    {"libsw", {"synth/film"}},
+    {"GL/", {"synth/picture"}},
+    {"png.h", {"facemodel"}},
+    {"httplib", {"server"}},
+    {"CLI/", {"server"}},
+    {"opencv2/", {"lipmodel"}},
+    {"pocketsphinx", {"synth/align"}},
+    {"sphinxbase", {"synth/align"}},
 };
 
 struct Include {

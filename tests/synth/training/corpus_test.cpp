@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
+#include "synth/learn/sentences.hpp"
 #include "synth/speech/requested_phones.hpp"
 
 namespace viaface {

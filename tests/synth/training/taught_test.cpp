@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/whole_file.hpp"
+#include "synth/learn/sentences.hpp"
 #include "synth/training/corpus.hpp"
 #include "synth/training/learn.hpp"
 #include "tests/synth/training/spoken.hpp"

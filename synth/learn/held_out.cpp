@@ -1,0 +1,126 @@
+#include "synth/learn/held_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "viapoints/codex_select.hpp"
+#include "viapoints/codex_speak.hpp"
+#include "viapoints/measured.hpp"
+#include "viapoints/spline.hpp"
+
+namespace viaface {
+namespace {
+
+struct Split {
+    std::vector<const Take*> learned, left_out;
+};
+
+Split split(const RecordedTakes& takes, double share, const std::string& field) {
+    if (!(share >= 0.01 && share <= 0.5)) {
+        throw InputError(field, (std::ostringstream() << 100 * share << "%").str(), "1% to 50%");
+    }
+    if (takes.takes.size() < 2) throw InputError(field, "one take", "at least two takes");
+    const auto every =
+        std::min<std::size_t>(static_cast<std::size_t>(std::lround(1 / share)), takes.takes.size());
+    Split parts;
+    for (std::size_t i = 0; i < takes.takes.size(); ++i) {
+        (i % every == every - 1 ? parts.left_out : parts.learned).push_back(&takes.takes[i].take);
+    }
+    return parts;
+}
+
+// Measured and spoken points of one take, side by side.
+struct Beside {
+    RowMatrix measured, spoken;  // [samples x 114]
+};
+
+Beside beside(const Codex& codex, const Take& take, const Selection& selection) {
+    ViaPointTrack track = speak(codex, take.phones, selection);
+    const MinimumJerkSpline spline(std::move(track), SplineEnd::at_rest(), SplineEnd::at_rest());
+    const auto& time = take.motion.time_s;
+    const std::size_t last = take.phones.phones.size() - 1;
+    const auto from = std::lower_bound(time.begin(), time.end(), take.phones.end_s(0));
+    const auto to = std::upper_bound(from, time.end(), take.phones.begin_s(last));
+    return {take.motion.positions.middleRows(from - time.begin(), to - from),
+            to_points(codex.basis, spline.at(std::vector<double>(from, to)))};
+}
+
+RowMatrix stacked(const std::vector<Beside>& takes, RowMatrix Beside::*part, int point) {
+    Eigen::Index rows = 0;
+    for (const Beside& take : takes) rows += (take.*part).rows();
+    RowMatrix all(rows, 3);
+    Eigen::Index at = 0;
+    for (const Beside& take : takes) {
+        all.middleRows(at, (take.*part).rows()) = (take.*part).middleCols<3>(3 * point);
+        at += (take.*part).rows();
+    }
+    return all;
+}
+
+PointFigures figures_of(const std::vector<Beside>& takes, int point) {
+    const RowMatrix measured = stacked(takes, &Beside::measured, point);
+    const RowMatrix spoken = stacked(takes, &Beside::spoken, point);
+    const RowMatrix m = measured.rowwise() - measured.colwise().mean();
+    const RowMatrix s = spoken.rowwise() - spoken.colwise().mean();
+    const double samples = static_cast<double>(measured.rows());
+    const double both = m.norm() * s.norm();
+    return {point, both > 0 ? m.cwiseProduct(s).sum() / both : 0,
+            (measured - spoken).norm() / std::sqrt(samples), m.norm() / std::sqrt(samples)};
+}
+
+double root_mean_square(const std::vector<PointFigures>& points, double PointFigures::*figure) {
+    double sum = 0;
+    for (const PointFigures& each : points) sum += each.*figure * each.*figure;
+    return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+}  // namespace
+
+HeldOutFigures check_held_out(const RecordedTakes& takes, double share, const std::string& field,
+                              const LearningOptions& options) {
+    const Split parts = split(takes, share, field);
+    const LearntCodex learnt = learn_from_takes(
+        basis_of(parts.learned, options.basis_error_mm), takes.rest, parts.learned.size(),
+        [&](std::size_t i) { return *parts.learned[i]; }, "", options);
+    HeldOutFigures figures;
+    figures.learned = parts.learned.size();
+    std::vector<Beside> spoken;
+    for (const Take* take : parts.left_out) {
+        figures.left_out.push_back(take->name);
+        const Selection selection = select_units(learnt.codex, take->phones);
+        for (std::size_t i = 0; i < 3; ++i) figures.phones_at_level[i] += selection.phones_at_level[i];
+        spoken.push_back(beside(learnt.codex, *take, selection));
+    }
+    for (const int point : measured_points(takes.takes.front().take.motion.positions, field))
+        figures.points.push_back(figures_of(spoken, point));
+    figures.rms_mm = root_mean_square(figures.points, &PointFigures::rms_mm);
+    figures.spread_mm = root_mean_square(figures.points, &PointFigures::spread_mm);
+    return figures;
+}
+
+std::string as_text(const HeldOutFigures& figures) {
+    char line[160];
+    const auto& [exact, of_class, half] = figures.phones_at_level;
+    const double all = std::max(1, exact + of_class + half);
+    std::snprintf(line, sizeof line, "%zu takes learned from, %zu left out\n", figures.learned,
+                  figures.left_out.size());
+    std::string text = line;
+    std::snprintf(line, sizeof line, "triphones: %.1f%% exact, %.1f%% by viseme class, %.1f%% halves\n",
+                  100 * exact / all, 100 * of_class / all, 100 * half / all);
+    text += line;
+    std::snprintf(line, sizeof line, "%-20s %6s %8s %10s\n", "point", "r", "rms mm", "spread mm");
+    text += line;
+    for (const PointFigures& each : figures.points) {
+        std::snprintf(line, sizeof line, "%-20s %6.2f %8.2f %10.2f\n", point_name(each.point).data(),
+                      each.correlation, each.rms_mm, each.spread_mm);
+        text += line;
+    }
+    std::snprintf(line, sizeof line, "%-20s %6s %8.2f %10.2f\n", "all", "", figures.rms_mm,
+                  figures.spread_mm);
+    return text + line;
+}
+
+}  // namespace viaface
