@@ -9,7 +9,8 @@
 // words at 0.8 to 4.4: below a confidence of one half an alignment is refused. One wrong word in six is not
 // told by the whole; its own loss may tell it.
 //
-// A recording is aligned whole: time and memory grow with its length, about 0.1 s and 0.5 MB a second.
+// A recording is aligned whole: time and memory grow with its length, about 0.16 s of a core and 1 MB a
+// second.
 #pragma once
 
 #include <string>
