@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "server/bench_via.hpp"
 #include "server/commands.hpp"
 #include "server/request_fields.hpp"
 #include "server/requests.hpp"
@@ -190,7 +191,10 @@ Command add_bench(CLI::App& program) {
     app->add_option("--size", options->size, description_of("size"))->capture_default_str();
     app->add_option("--fps", options->fps, description_of("fps"))->capture_default_str();
     app->add_option("--renderer", options->renderer, kRendererHelp)->capture_default_str();
-    return [options] {
+    const Command bench_via = add_bench_via(*app);
+    const CLI::App* via = app->get_subcommands({}).back();
+    return [options, via, bench_via] {
+        if (via->parsed()) return bench_via();
         options->request.say.renderer = renderer_of(options->renderer);
         set_size(options->request.say.view, options->size);
         options->request.say.fps = frame_rate(options->fps);

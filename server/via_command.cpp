@@ -9,7 +9,7 @@ Command add_via(CLI::App& program) {
     CLI::App* app = program.add_subcommand("via", "Motion as via points.");
     app->require_subcommand(1);
     using Adder = Command (*)(CLI::App&);
-    const Adder adders[] = {add_via_analyse};
+    const Adder adders[] = {add_via_analyse, add_via_encode, add_via_decode, add_via_info, add_via_learn};
     std::vector<std::pair<const CLI::App*, Command>> commands;
     for (const Adder add : adders) {
         Command command = add(*app);

@@ -16,6 +16,7 @@
 #include "synth/training/left_out.hpp"
 #include "synth/training/make_face.hpp"
 #include "synth/training/report.hpp"
+#include "synth/training/stream_lesson.hpp"
 #include "viapoints/codex_file.hpp"
 
 namespace viaface {
@@ -108,6 +109,7 @@ int make(const fs::path& scans, const fs::path& output) {
     make_shapes(head, output);
     make_codex(head, fs::path(VIAFACE_CORPUS), output);
     write_whole(output / "talker.json", std::string_view(description().dump(2) + "\n"));
+    teach_stream(output, scans.parent_path(), read_sentences(VIAFACE_CORPUS), tell);
     return 0;
 }
 

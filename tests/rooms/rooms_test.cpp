@@ -35,6 +35,7 @@ const std::map<std::string, Names> kVendorRooms = {
     {"opencv2/", {"lipmodel"}},
     {"pocketsphinx", {"synth/align"}},
     {"sphinxbase", {"synth/align"}},
+    {"lzma", {"synth/stream"}},
 };
 
 struct Include {

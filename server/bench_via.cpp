@@ -1,0 +1,114 @@
+#include "server/bench_via.hpp"
+
+#include <cstdio>
+#include <future>
+
+#include "synth/stream/baselines.hpp"
+#include "synth/stream/bench_motions.hpp"
+#include "synth/talker/talker_shelf.hpp"
+#include "viapoints/stream_train.hpp"
+#include "viapoints/via_stream.hpp"
+
+namespace viaface {
+namespace {
+
+struct Row {
+    std::string name;
+    double bound_mm = 0;
+    StreamAccount stream;
+    BaselineBits dct, xz;
+};
+
+double per_second(double bits, const Row& row) { return bits / row.stream.seconds; }
+
+// Statistics and basis from `training` and the talker's own speech, bits on `motion`.
+Row measured(const BenchMotion& motion, const Motion& training, const Motion& speech, double bound_mm) {
+    const StreamModel model = learn_stream_model("bench", {speech, training}, {.bounds_mm = {bound_mm}});
+    Row row{motion.name,
+            bound_mm,
+            encode_stream(motion.motion, &model, {.max_error_mm = bound_mm}).account,
+            {},
+            {}};
+    const ConfigurationBasis own = principal_basis(motion.motion.positions, 10);  // in the baselines' favour
+    row.dct = dct_bits(motion.motion, training, own, bound_mm);
+    row.xz = delta_xz_bits(motion.motion, own, bound_mm);
+    return row;
+}
+
+void print_heading() {
+    std::printf("%-16s %6s %9s %9s %7s %7s | %9s %7s %7s | %9s\n", "motion", "bound", "payload", "whole",
+                "rms", "max", "DCT", "rms", "times", "xz");
+    std::printf("%-16s %6s %9s %9s %7s %7s | %9s %7s %7s | %9s\n", "", "mm", "bit/s", "bit/s", "mm", "mm",
+                "bit/s", "mm", "payload", "bit/s");
+}
+
+void print(const Row& row) {
+    const double payload = per_second(8.0 * static_cast<double>(row.stream.payload_bytes), row),
+                 dct = per_second(row.dct.bits, row);
+    std::printf("%-16s %6.2f %9.1f %9.1f %7.3f %7.3f | %9.1f %7.3f %7.2f | %9.1f\n", row.name.c_str(),
+                row.bound_mm, payload, per_second(8.0 * static_cast<double>(row.stream.all_bytes), row),
+                row.stream.rms_error_mm, row.stream.max_error_mm, dct, row.dct.rms_error_mm, dct / payload,
+                per_second(row.xz.bits, row));
+    std::fflush(stdout);
+}
+
+void describe(const BenchMotion& motion) {
+    const MotionRange range = range_of(motion.motion);
+    std::printf(
+        "%s: %.1f s, a point moves over 10 mm/s in %.0f%% of samples; range %.1f mm at most, %.1f mm in the "
+        "mean of points\n",
+        motion.name.c_str(), motion.motion.time_s.back() - motion.motion.time_s.front(),
+        100 * active_share(motion.motion), range.largest_mm, range.mean_mm);
+}
+
+void phrase_rows(const BenchMotions& motions, const Motion& speech, double bound_mm) {
+    const auto& takes = motions.phrase_takes;
+    auto second =
+        std::async(std::launch::async, [&] { return measured(takes[1], takes[0].motion, speech, bound_mm); });
+    print(measured(takes[0], takes[1].motion, speech, bound_mm));
+    print(second.get());
+}
+
+int run(const std::string& name, const std::filesystem::path& data, bool full) {
+    const auto talker = TalkerShelf(talkers_folder()).load(name);
+    const BenchMotions motions = bench_motions(*talker, data);
+    for (const std::string& skipped : motions.skipped) std::printf("skipped: %s\n", skipped.c_str());
+    std::printf(
+        "Payload: range-coded via points alone. Whole: every byte of the file, sync points at most 10 s "
+        "apart, the talker named. The talker's basis and statistics\n"
+        "are not counted; they come from the other take and from own speech. DCT and xz: payload alone, with "
+        "the ten leading components of the very motion,\n"
+        "searched to the same largest error; the DCT's contexts are primed on the other take.\n");
+    for (const BenchMotion& motion : motions.phrase_takes) describe(motion);
+    for (const BenchMotion& motion : motions.others) describe(motion);
+    print_heading();
+    const Motion& speech = motions.others.back().motion;
+    const std::vector<double> bounds =
+        full ? std::vector<double>{0.25, 0.5, 1, 2, 4} : std::vector<double>{1};
+    for (const double bound : bounds) {
+        if (!motions.phrase_takes.empty()) phrase_rows(motions, speech, bound);
+        for (const BenchMotion& motion : motions.others)
+            if (full || motions.phrase_takes.empty()) print(measured(motion, speech, speech, bound));
+    }
+    return 0;
+}
+
+}  // namespace
+
+Command add_bench_via(CLI::App& bench) {
+    struct Options {
+        std::string talker = "momo", data;
+        bool full = false;
+    };
+    auto options = std::make_shared<Options>();
+    options->data = (talkers_folder() / ".." / ".." / "shared" / "data").lexically_normal().string();
+    CLI::App* app = bench.add_subcommand(
+        "via", "Bits of via-point streams on real motion, beside DCT and xz at the same largest error.");
+    app->add_option("--talker", options->talker, "a built-in talker's name")->capture_default_str();
+    app->add_option("--data", options->data, "folder with facegood/ and livelink_rom/")
+        ->capture_default_str();
+    app->add_flag("--full", options->full, "0.25 to 4 mm, and every motion");
+    return [options] { return run(options->talker, options->data, options->full); };
+}
+
+}  // namespace viaface

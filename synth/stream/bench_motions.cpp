@@ -1,0 +1,108 @@
+#include "synth/stream/bench_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "synth/motion/retarget.hpp"
+#include "synth/say/recital.hpp"
+#include "viapoints/measured.hpp"
+
+namespace viaface {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+constexpr double kMoving = 10;       // mm/s
+constexpr double kSpokenRate = 100;  // Hz
+
+BenchMotion performed(const Talker& talker, const std::string& name, const fs::path& file) {
+    Motion motion = retarget(talker.face, talker.poser, read_blend_recording(file)).motion;
+    motion.extra.clear();
+    return {name, std::move(motion)};
+}
+
+void add_performed(BenchMotions& motions, const Talker& talker, const fs::path& data) {
+    if (talker.face.shapes.empty()) {
+        motions.skipped.push_back("phrase takes and livelink_rom: the talker has no named shapes to move");
+        return;
+    }
+    const fs::path first = data / "facegood" / "bs_value_1114_2_01.npy",
+                   second = data / "facegood" / "bs_value_1114_2_03.npy";
+    if (fs::exists(first) && fs::exists(second)) {
+        motions.phrase_takes = {performed(talker, "phrases 1", first),
+                                performed(talker, "phrases 2", second)};
+    } else {
+        motions.skipped.push_back("phrase takes: " + first.string() + " is not there");
+    }
+    const fs::path rom = data / "livelink_rom" / "alex_rom_3.csv";
+    if (fs::exists(rom)) {
+        motions.others.push_back(performed(talker, "range of motion", rom));
+    } else {
+        motions.skipped.push_back("range of motion: " + rom.string() + " is not there");
+    }
+}
+
+}  // namespace
+
+Motion spoken_motion(const Talker& talker, const std::vector<std::string>& sentences) {
+    Motion motion;
+    std::vector<RowMatrix> parts;
+    Index rows = 0;
+    for (const std::string& sentence : sentences) {
+        const Recital recital = recite(
+            talker.codex,
+            Script({.text = sentence, .phones = "", .voice = std::string(kDefaultVoice), .prosody = {}})
+                .utterance(0));
+        std::vector<double> times;
+        for (std::int64_t n = 0; static_cast<double>(n) / kSpokenRate < recital.track.time_s.back(); ++n) {
+            times.push_back(static_cast<double>(n) / kSpokenRate);
+            motion.time_s.push_back(static_cast<double>(motion.time_s.size()) / kSpokenRate);
+        }
+        parts.push_back(recital.motion.at(times));
+        rows += parts.back().rows();
+    }
+    motion.positions.resize(rows, kCoordinates);
+    Index at = 0;
+    for (const RowMatrix& part : parts) {
+        motion.positions.middleRows(at, part.rows()) = part;
+        at += part.rows();
+    }
+    return motion;
+}
+
+BenchMotions bench_motions(const Talker& talker, const fs::path& data) {
+    BenchMotions motions;
+    add_performed(motions, talker, data);
+    motions.others.push_back(
+        {"own speech",
+         spoken_motion(talker, {"The boy has a big red ball.", "Please call me when you leave the house.",
+                                "We were away a year ago.", "Five or six people moved to the front."})});
+    return motions;
+}
+
+double active_share(const Motion& motion) {
+    const std::vector<int> points = measured_points(motion.positions, "motion");
+    std::size_t active = 0;
+    for (std::size_t i = 1; i < motion.size(); ++i) {
+        const auto row = static_cast<Index>(i);
+        const double moved =
+            longest_triple(coordinates_of(motion.positions.row(row) - motion.positions.row(row - 1), points));
+        active += moved > kMoving * (motion.time_s[i] - motion.time_s[i - 1]);
+    }
+    return static_cast<double>(active) / static_cast<double>(motion.size() - 1);
+}
+
+MotionRange range_of(const Motion& motion) {
+    MotionRange range;
+    const std::vector<int> points = measured_points(motion.positions, "motion");
+    for (const int p : points) {
+        const auto own = motion.positions.middleCols<3>(3 * p);
+        const double diagonal = (own.colwise().maxCoeff() - own.colwise().minCoeff()).norm();
+        range.largest_mm = std::max(range.largest_mm, diagonal);
+        range.mean_mm += diagonal / static_cast<double>(points.size());
+    }
+    return range;
+}
+
+}  // namespace viaface
