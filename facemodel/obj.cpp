@@ -38,6 +38,7 @@ class ObjParser {
         if (key == "vt") read_numbers(uvs_, 2);
         if (key == "f") read_face();
         if (key == "usemtl") use_material(word());
+        if (key == "mtllib") scan_.libraries.emplace_back(word());
     }
 
     std::string_view word() {
@@ -136,6 +137,19 @@ class ObjParser {
 }  // namespace
 
 ObjScan parse_obj(std::string_view text) { return ObjParser(text).parse(); }
+
+std::map<std::string, std::string> parse_mtl(std::string_view text) {
+    std::map<std::string, std::string> pictures;
+    std::string material;
+    while (!text.empty()) {
+        std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t")));
+        if (line.starts_with("newmtl ")) material = line.substr(7);
+        if (line.starts_with("map_Kd ")) pictures[material] = line.substr(line.find_last_of(" \t") + 1);
+    }
+    return pictures;
+}
 
 ObjScan read_obj(const std::filesystem::path& path) {
     try {

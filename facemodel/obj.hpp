@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,11 +24,15 @@ struct ObjScan {
     Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> uvs;
     std::vector<ObjFace> faces;
     std::vector<std::string> materials;  // in the order of their first use
+    std::vector<std::string> libraries;  // files of materials (MTL) that the scan names
 };
 
 // InputError("scan", ...) naming the line for text that is not an OBJ scan: no nodes, indices out of range,
 // numbers that do not parse or are not finite.
 ObjScan parse_obj(std::string_view text);
 ObjScan read_obj(const std::filesystem::path& path);
+
+// Colour pictures (map_Kd) by material, of an MTL file; options before the name are passed over.
+std::map<std::string, std::string> parse_mtl(std::string_view text);
 
 }  // namespace viaface

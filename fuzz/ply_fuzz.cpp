@@ -1,0 +1,12 @@
+// Bytes to a scan, which has to be refused by name or read.
+#include "base/error.hpp"
+#include "facemodel/ply.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        viaface::parse_ply({data, size});
+    } catch (const viaface::InputError&) {
+        return 0;
+    }
+    return 0;
+}
