@@ -4,68 +4,92 @@
 #include <cmath>
 
 namespace viaface {
+namespace {
+
+constexpr double kNoSuchGap = 1000;  // bits
+
+double difference_bits(const ValueContexts& contexts, int row, std::size_t active, std::size_t side, int v) {
+    double bits = bits_of(contexts.any[static_cast<std::size_t>(row)][active].one, v != 0);
+    if (v == 0) return bits;
+    bits += bits_of(contexts.negative[row == kStartClass][side].one, v < 0);
+    const auto& more = contexts.more_of(row, active);
+    const int size = std::abs(v);
+    for (int n = 1; n <= std::min(size, kUnaryLimit); ++n)
+        bits += bits_of(more[static_cast<std::size_t>(n - 1)].one, size > n);
+    if (size > kUnaryLimit) bits += 2 * std::log2(size - kUnaryLimit) + 1;
+    return bits;
+}
+
+}  // namespace
 
 StreamCost::StreamCost(const StreamStatistics& statistics) : statistics_(statistics) {
-    for (int j = 0; j < statistics.components; ++j) {
-        const ValueContexts& contexts = statistics.value[static_cast<std::size_t>(j)];
-        for (std::size_t c = 0; c < kGapClasses; ++c)
+    const int n = statistics.components;
+    now_.assign(static_cast<std::size_t>(kRowClasses * n * n), 0);
+    last_ = now_;
+    before_.assign(static_cast<std::size_t>(kRowClasses * n), 0);
+    for (int j = 0; j < n; ++j) {
+        for (int row = 0; row < kRowClasses; ++row) {
+            const std::int32_t* w = statistics.weights.data() + statistics.weights_at(j, row) + 1;
+            for (int k = 0; k < n; ++k) last_[static_cast<std::size_t>((row * n + k) * n + j)] = *w++;
+            before_[static_cast<std::size_t>(row * n + j)] = *w++;
+            for (int k = 0; k < j; ++k) now_[static_cast<std::size_t>((row * n + k) * n + j)] = *w++;
             for (std::size_t a = 0; a < 3; ++a)
                 for (std::size_t s = 0; s < 3; ++s)
-                    for (int v = -kFurthest; v <= kFurthest; ++v) {
-                        double bits = bits_of(contexts.any[c][a].one, v != 0);
-                        if (v != 0) {
-                            bits += bits_of(contexts.negative[c == kStartClass][s].one, v < 0);
-                            const int size = std::abs(v);
-                            for (int n = 1; n <= std::min(size, kUnaryLimit); ++n)
-                                bits +=
-                                    bits_of(contexts.more[a][static_cast<std::size_t>(n - 1)].one, size > n);
-                            if (size > kUnaryLimit) bits += 2 * std::log2(size - kUnaryLimit) + 1;
-                        }
-                        difference_.push_back(static_cast<float>(bits));
-                    }
+                    for (int v = -kFurthest; v <= kFurthest; ++v)
+                        difference_.push_back(static_cast<float>(
+                            difference_bits(statistics.value[static_cast<std::size_t>(j)], row, a, s, v)));
+        }
     }
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < kGapContexts; ++c) {
         double longer = 0;
         gap_.push_back(0);
-        for (std::size_t n = 1; n <= kMostGapTicks; ++n) {
-            const std::uint16_t one = statistics.gap.longer[c][n - 1].one;
+        for (std::size_t t = 1; t <= kMostGapTicks; ++t) {
+            const std::uint16_t one = statistics.gap.longer[c][t - 1].one;
             gap_.push_back(longer + bits_of(one, false));
             longer += bits_of(one, true);
         }
     }
 }
 
-double StreamCost::gap(int class_before, int ticks) const {
-    return gap_[static_cast<std::size_t>(class_before * (kMostGapTicks + 1) +
-                                         std::min(ticks, kMostGapTicks))] +
-           (ticks > kMostGapTicks ? 1000 : 0);
+double StreamCost::gap(int context, int ticks) const {
+    if (ticks > kMostGapTicks) return kNoSuchGap;
+    return gap_[static_cast<std::size_t>(context * (kMostGapTicks + 1) + ticks)];
 }
 
-double StreamCost::difference(int component, int gap_class, int active, int side, std::int32_t value) const {
-    const std::int32_t v = std::clamp(value, -kFurthest, kFurthest);
-    const int at = (((component * kGapClasses + gap_class) * 3 + active) * 3 + side) * (2 * kFurthest + 1) +
-                   v + kFurthest;
-    return static_cast<double>(difference_[static_cast<std::size_t>(at)]) + 0.2 * std::abs(value - v);
-}
-
-double StreamCost::event(const std::vector<int>& ticks, const std::vector<ViaValues>& values,
-                         std::size_t j) const {
-    const ViaValues zeros(j == 0 ? values[0].size() : 0);
-    const ViaPast past = past_of(values, j, zeros);
-    const int c = j > 0 ? gap_class(ticks[j] - ticks[j - 1]) : kStartClass;
-    double bits =
-        j > 0 && ticks[j] != ticks[j - 1]
-            ? gap(j > 1 && ticks[j - 1] != ticks[j - 2] ? gap_class(ticks[j - 1] - ticks[j - 2]) : 1,
-                  ticks[j] - ticks[j - 1])
-            : 0;
+double StreamCost::values(int row, const PredictionSums& sums, const ViaValues& values) const {
+    constexpr int kSide = 2 * kFurthest + 1, kActive = 3 * kSide, kRow = 3 * kActive;
+    double bits = 0;
     int active = 0;
-    for (int k = 0; k < statistics_.components; ++k) {
-        const Prediction predicted = statistics_.predict(k, c, past, values[j]);
-        const std::int32_t rest = values[j][static_cast<std::size_t>(k)] - predicted.nearest;
-        bits += difference(k, c, std::min(active, 2), predicted.side, rest);
-        active += rest != 0;
+    const float* table = difference_.data() + row * kRow;
+    for (std::size_t k = 0; k < values.size(); ++k, table += kRowClasses * kRow) {
+        const Prediction predicted = rounded_prediction(sums[k]);
+        const std::int32_t rest = values[k] - predicted.nearest;
+        const std::int32_t v = std::clamp(rest, -kFurthest, kFurthest);
+        bits += static_cast<double>(table[active * kActive + predicted.side * kSide + v + kFurthest]) +
+                0.2 * std::abs(rest - v);
+        if (rest != 0 && active < 2) ++active;
     }
     return bits;
+}
+
+void StreamCost::predict(int row, const ViaPast& past, const ViaValues& now, PredictionSums& sums) const {
+    sums.resize(now.size());
+    for (int k = 0; k < components(); ++k)
+        sums[static_cast<std::size_t>(k)] = statistics_.prediction_sum(k, row, past, now);
+}
+
+void StreamCost::add_now(int row, int k, std::int64_t by, PredictionSums& sums) const {
+    const std::int64_t* w = of(now_, row, k);
+    for (std::size_t j = static_cast<std::size_t>(k) + 1; j < sums.size(); ++j) sums[j] += by * w[j];
+}
+
+void StreamCost::add_last(int row, int k, std::int64_t by, PredictionSums& sums) const {
+    const std::int64_t* w = of(last_, row, k);
+    for (std::size_t j = 0; j < sums.size(); ++j) sums[j] += by * w[j];
+}
+
+void StreamCost::add_before(int row, int k, std::int64_t by, PredictionSums& sums) const {
+    sums[static_cast<std::size_t>(k)] += by * before_[static_cast<std::size_t>(row * components() + k)];
 }
 
 }  // namespace viaface

@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <unordered_map>
 
 namespace viaface {
 namespace {
@@ -11,11 +13,20 @@ using Eigen::Index;
 
 constexpr double kTowardsAll = 6;     // as many via points as speak for the weights of all gaps together
 constexpr double kTowardsPlain = 10;  // and for predicting the last value
-constexpr std::uint8_t kTrust = 30;   // sightings with which a learned probability starts
+constexpr double kTowardsParent = 4, kTowardsPrior = 4, kRarely = 0.03;
+constexpr std::uint8_t kTrust = 30;  // sightings with which a learned probability starts
 
-struct Meter {
+struct Counts {
+    double all = 0, ones = 0;
+};
+using CountsOf = std::unordered_map<const AdaptiveBit*, Counts>;  // looked up, never gone through
+
+struct Counter {
+    CountsOf& counts;
     bool bit(AdaptiveBit& context, bool value) {
-        context.see(value);
+        Counts& seen = counts[&context];
+        seen.all += 1;
+        seen.ones += value;
         return value;
     }
     std::uint32_t even(std::uint32_t value, int) { return value; }
@@ -31,7 +42,7 @@ void add_events(const QuantisedSegment& segment, int j, std::vector<Normal>& cla
     std::vector<double> f;
     for (std::size_t n = 0; n < segment.values.size(); ++n) {
         const ViaPast past = past_of(segment.values, n, zeros);
-        const int c = n > 0 ? gap_class(segment.tick[n] - segment.tick[n - 1]) : kStartClass;
+        const int c = row_class(past, n > 0 ? segment.tick[n] - segment.tick[n - 1] : 0);
         put_features(j, past, segment.values[n], f);
         const Eigen::Map<const Eigen::VectorXd> x(f.data(), static_cast<Index>(f.size()));
         Normal& normal = classes[static_cast<std::size_t>(c)];
@@ -51,7 +62,7 @@ Eigen::VectorXd solved(const Normal& normal, const Eigen::VectorXd& prior, doubl
 
 void learn_weights(const std::vector<QuantisedSegment>& segments, int j, StreamStatistics& statistics) {
     const auto size = static_cast<Index>(StreamStatistics::features(statistics.components, j));
-    std::vector<Normal> classes(kGapClasses,
+    std::vector<Normal> classes(kRowClasses,
                                 {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)});
     double events = 0;
     for (const QuantisedSegment& segment : segments) {
@@ -67,7 +78,7 @@ void learn_weights(const std::vector<QuantisedSegment>& segments, int j, StreamS
     Eigen::VectorXd plain = Eigen::VectorXd::Zero(size);
     plain[1 + j] = 1;
     const Eigen::VectorXd together = solved(all, plain, kTowardsPlain, typical);
-    for (int c = 0; c < kGapClasses; ++c) {
+    for (int c = 0; c < kRowClasses; ++c) {
         const Normal& own = classes[static_cast<std::size_t>(c)];
         const Eigen::VectorXd w = c == kStartClass ? solved(own, Eigen::VectorXd::Zero(size), 1, typical)
                                                    : solved(own, together, kTowardsAll, typical);
@@ -75,6 +86,56 @@ void learn_weights(const std::vector<QuantisedSegment>& segments, int j, StreamS
             statistics.weights[statistics.weights_at(j, c) + static_cast<std::size_t>(i)] =
                 static_cast<std::int32_t>(std::lround(4096 * std::clamp(w[i], -1e4, 1e4)));
     }
+}
+
+// Counts of some contexts become probabilities near what all of them together say, that near `prior`.
+template <std::size_t kContexts>
+void settle(const CountsOf& counts, const std::array<AdaptiveBit*, kContexts>& bits, double prior) {
+    const auto of = [&](const AdaptiveBit* bit) {
+        const auto at = counts.find(bit);
+        return at == counts.end() ? Counts{} : at->second;
+    };
+    Counts together;
+    for (const AdaptiveBit* bit : bits) {
+        together.all += of(bit).all;
+        together.ones += of(bit).ones;
+    }
+    const double parent = (together.ones + kTowardsPrior * prior) / (together.all + kTowardsPrior);
+    for (AdaptiveBit* bit : bits) {
+        const Counts own = of(bit);
+        const double one = (own.ones + kTowardsParent * parent) / (own.all + kTowardsParent);
+        bit->one = static_cast<std::uint16_t>(std::clamp(std::lround(65536 * one), long{AdaptiveBit::kLeast},
+                                                         long{65536 - AdaptiveBit::kLeast}));
+        bit->sightings = kTrust;
+    }
+}
+
+void settle_value(const CountsOf& counts, ValueContexts& value) {
+    std::array<AdaptiveBit*, kRowClasses * ValueContexts::kActivities> any{};
+    for (std::size_t i = 0; i < any.size(); ++i)
+        any[i] = &value.any[i / ValueContexts::kActivities][i % ValueContexts::kActivities];
+    settle(counts, any, kRarely);
+    for (auto& sides : value.negative)
+        for (AdaptiveBit& side : sides) settle<1>(counts, {&side}, 0.5);
+    for (std::size_t n = 0; n < kUnaryLimit; ++n)
+        settle<4>(counts, {&value.more[0][n], &value.more[1][n], &value.more[2][n], &value.more_still[n]},
+                  0.5);
+}
+
+void learn_probabilities(const std::vector<QuantisedSegment>& segments, StreamStatistics& statistics) {
+    CountsOf counts;
+    Counter counter{counts};
+    ViaCoder<Counter> coder(counter, std::move(statistics));
+    for (const QuantisedSegment& segment : segments) code_segment(coder, segment);
+    StreamStatistics& known = coder.known();
+    for (ValueContexts& value : known.value) settle_value(counts, value);
+    for (std::size_t n = 0; n < kMostGapTicks; ++n)
+        settle<4>(counts,
+                  {&known.gap.longer[0][n], &known.gap.longer[1][n], &known.gap.longer[2][n],
+                   &known.gap.longer[3][n]},
+                  0.7);
+    settle<1>(counts, {&known.beyond}, 0.5);
+    statistics = std::move(known);
 }
 
 }  // namespace
@@ -85,13 +146,7 @@ StreamStatistics learn_statistics(const std::vector<QuantisedSegment>& segments,
     statistics.bound_mm = bound_mm;
     statistics.step_mm = step_mm;
     for (int j = 0; j < components; ++j) learn_weights(segments, j, statistics);
-    Meter meter;
-    for (const QuantisedSegment& segment : segments) {
-        ViaCoder<Meter> coder(meter, statistics);
-        code_segment(coder, segment);
-        statistics = coder.known();
-    }
-    for_each_bit(statistics, [](AdaptiveBit& bit) { bit.sightings = std::min(bit.sightings, kTrust); });
+    learn_probabilities(segments, statistics);
     return statistics;
 }
 

@@ -32,12 +32,13 @@ template <class Coder>
 void code_segment(ViaCoder<Coder>& coder, const QuantisedSegment& segment) {
     const ViaValues zeros(segment.values[0].size());
     for (std::size_t n = 0; n < segment.tick.size(); ++n) {
-        int c = n > 0 ? gap_class(0) : kStartClass;
+        const ViaPast past = past_of(segment.values, n, zeros);
+        int gap = 0;
         if (n > 0 && segment.tick[n] != segment.tick[n - 1])
-            c = gap_class(coder.gap(segment.tick[n] - segment.tick[n - 1],
-                                    std::min(kMostGapTicks, segment.length() - segment.tick[n - 1])));
+            gap = coder.gap(segment.tick[n] - segment.tick[n - 1],
+                            std::min(kMostGapTicks, segment.length() - segment.tick[n - 1]), past.still);
         ViaValues values = segment.values[n];
-        coder.values(values, past_of(segment.values, n, zeros), c);
+        coder.values(values, past, gap);
     }
 }
 
@@ -55,7 +56,5 @@ QuantisedSegment search_segment(const SegmentTarget& target, const Eigen::Matrix
 
 // The segment's spline at ticks: [ticks x k], mm.
 RowMatrix components_at(const QuantisedSegment& segment, double step_mm, const std::vector<double>& ticks);
-
-double segment_bits(const QuantisedSegment& segment, const StreamStatistics& statistics);
 
 }  // namespace viaface

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "viapoints/analysis.hpp"
 #include "viapoints/measured.hpp"
 
 namespace viaface {
@@ -13,19 +14,32 @@ namespace {
 
 using Eigen::Index;
 
-constexpr int kFirstGap = 3;          // ticks between the via points that a search starts from
-constexpr double kSearchedRate = 60;  // samples per second that a search looks at first
-constexpr double kRestingSpeed = 30;  // bounds per second: what moves slower at an end may rest there
-constexpr int kMostNarrower = 3;      // times that the bound is drawn in for samples in between
+constexpr double kAnalysedShare = 0.5;  // of the bound, of the analysis that a search starts from
+constexpr double kSearchedRate = 60;    // samples per second that a search looks at first
+constexpr double kRestingSpeed = 30;    // bounds per second: what moves slower at an end may rest there
+constexpr int kMostNarrower = 3;        // times that the bound is drawn in for samples in between
 
 Eigen::MatrixXd packed_modes(const StreamTools& tools) {
     return coordinates_of(tools.basis.modes.transpose(), tools.head.points).transpose();
 }
 
-std::vector<int> even_ticks(std::uint32_t length, bool first_moves, bool last_moves) {
-    std::vector<int> ticks(first_moves ? 2 : 0);
-    for (std::uint32_t t = 0; t < length; t += kFirstGap) ticks.push_back(static_cast<int>(t));
-    ticks.insert(ticks.end(), last_moves ? 3 : 1, static_cast<int>(length));
+// The via times of an analysis of what the segment holds, on the grid.
+std::vector<int> analysed_ticks(const Motion& motion, const StreamHead& head, const CutSegment& cut,
+                                bool first_moves, bool last_moves) {
+    const auto length = static_cast<int>(cut.last_tick - cut.first_tick);
+    std::vector<int> ticks(first_moves ? 3 : 1);
+    if (cut.samples >= 2) {
+        const auto first = motion.time_s.begin() + static_cast<std::ptrdiff_t>(cut.first_sample);
+        const Motion own{{first, first + static_cast<std::ptrdiff_t>(cut.samples)},
+                         motion.positions.middleRows(static_cast<Index>(cut.first_sample),
+                                                     static_cast<Index>(cut.samples))};
+        for (const double time : analyse(own, {.max_error_mm = kAnalysedShare * head.bound_mm}).time_s) {
+            const auto tick = static_cast<int>(std::lround(tick_of(head, time) - cut.first_tick));
+            if (tick > ticks.back() && tick < length) ticks.push_back(tick);
+        }
+    }
+    while (length - ticks.back() > kMostGapTicks) ticks.push_back(ticks.back() + kMostGapTicks);
+    ticks.insert(ticks.end(), last_moves ? 3 : 1, length);
     return ticks;
 }
 
@@ -71,17 +85,16 @@ SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> co
     const ViaValues zeros(static_cast<std::size_t>(tools.basis.size()));
     for (std::size_t ends = 0; ends < at_last;) {
         int ticks = 0;
+        const ViaPast past = past_of(via.values, via.values.size(), zeros);
         if (via.tick.size() >= at_first && ends == 0)
-            ticks = coder.gap(0, std::min(kMostGapTicks, length - via.tick.back()));
-        const int gap = via.tick.empty() ? kStartClass : gap_class(ticks);
+            ticks = coder.gap(0, std::min(kMostGapTicks, length - via.tick.back()), past.still);
         via.tick.push_back(via.tick.empty() ? 0 : via.tick.back() + ticks);
-        via.values.push_back(zeros);
         ViaValues values = zeros;
-        coder.values(values, past_of(via.values, via.values.size() - 1, zeros), gap);
+        coder.values(values, past, ticks);
         if (std::any_of(values.begin(), values.end(),
                         [](std::int32_t v) { return std::abs(v) > kLargestValue; }))
             throw std::runtime_error("a value out of range");
-        via.values.back() = std::move(values);
+        via.values.push_back(std::move(values));
         ends += via.tick.back() == length;
     }
     return segment;
@@ -108,7 +121,8 @@ ViaValues SegmentEncoder::first_values(int finer) const {
 SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const {
     SegmentVia found{{}, finer};
     SearchOptions options{tools_.head.bound_mm, step_of(tools_.head, finer), rounds_};
-    std::vector<int> ticks = even_ticks(cut.last_tick - cut.first_tick, ends.first_moves, ends.last_moves);
+    const std::vector<int> ticks =
+        analysed_ticks(motion, tools_.head, cut, ends.first_moves, ends.last_moves);
     std::size_t stride = stride_of(motion, cut);
     for (int tries = 0;; ++tries) {
         const SegmentTarget target = target_of(motion, tools_.head, tools_.basis.mean, cut, stride);

@@ -7,25 +7,37 @@ namespace {
 
 constexpr int kWeightBits = 12;
 constexpr std::int64_t kWeightOne = 1 << kWeightBits;
+constexpr std::uint16_t kRarely =
+    1966;  // of 65536, that a component which the table lacks is not as predicted
+constexpr std::uint8_t kRarelySeen = 20;
 
 }  // namespace
 
 int gap_class(int gap_ticks) { return gap_ticks <= 4 ? 0 : gap_ticks <= 8 ? 1 : 2; }
 
-std::size_t StreamStatistics::weights_at(int j, int gap_class) const {
+std::size_t StreamStatistics::weights_at(int j, int row) const {
     const auto k = static_cast<std::size_t>(components), n = static_cast<std::size_t>(j);
-    const std::size_t before = kGapClasses * (n * (2 + k) + n * (n - 1) / 2);
-    return before + static_cast<std::size_t>(gap_class) * features(components, j);
+    const std::size_t before = kRowClasses * (n * (2 + k) + n * (n - 1) / 2);
+    return before + static_cast<std::size_t>(row) * features(components, j);
 }
 
-Prediction StreamStatistics::predict(int j, int gap_class, const ViaPast& past, const ViaValues& now) const {
-    const std::int32_t* w = weights.data() + weights_at(j, gap_class);
+std::int64_t StreamStatistics::prediction_sum(int j, int row, const ViaPast& past,
+                                              const ViaValues& now) const {
+    const std::int32_t* w = weights.data() + weights_at(j, row);
     std::int64_t sum = *w++;
     for (int i = 0; i < components; ++i) sum += std::int64_t{*w++} * past.last[static_cast<std::size_t>(i)];
     sum += std::int64_t{*w++} * past.before[static_cast<std::size_t>(j)];
     for (int i = 0; i < j; ++i) sum += std::int64_t{*w++} * now[static_cast<std::size_t>(i)];
-    const std::int64_t most = kLargestValue * kWeightOne;
-    sum = std::clamp(sum, -most, most);
+    return sum;
+}
+
+Prediction StreamStatistics::predict(int j, int row, const ViaPast& past, const ViaValues& now) const {
+    return rounded_prediction(prediction_sum(j, row, past, now));
+}
+
+Prediction rounded_prediction(std::int64_t sum) {
+    constexpr std::int64_t kMost = kLargestValue * kWeightOne;
+    sum = std::clamp(sum, -kMost, kMost);
     const std::int64_t nearest = (sum + kWeightOne / 2) >> kWeightBits;
     const std::int64_t off = sum - nearest * kWeightOne;
     return {static_cast<std::int32_t>(nearest), off > kWeightOne / 6 ? 1 : off < -kWeightOne / 6 ? 2 : 0};
@@ -36,10 +48,10 @@ StreamStatistics plain_statistics(int components) {
     plain.components = components;
     plain.value.resize(static_cast<std::size_t>(components));
     std::size_t size = 0;
-    for (int j = 0; j < components; ++j) size += kGapClasses * StreamStatistics::features(components, j);
+    for (int j = 0; j < components; ++j) size += kRowClasses * StreamStatistics::features(components, j);
     plain.weights.assign(size, 0);
     for (int j = 0; j < components; ++j) {
-        for (int c = 0; c < kGapClasses; ++c)
+        for (int c = 0; c < kRowClasses; ++c)
             plain.weights[plain.weights_at(j, c) + 1 + static_cast<std::size_t>(j)] = kWeightOne;
     }
     return plain;
@@ -48,14 +60,17 @@ StreamStatistics plain_statistics(int components) {
 StreamStatistics with_components(const StreamStatistics& statistics, int components) {
     if (statistics.components == components) return statistics;
     StreamStatistics other = plain_statistics(components);
+    if (statistics.components == 0) return other;
     other.bound_mm = statistics.bound_mm;
     other.step_mm = statistics.step_mm;
     other.gap = statistics.gap;
     other.beyond = statistics.beyond;
     const int common = std::min(components, statistics.components);
+    for (int j = common; j < components; ++j)
+        for (auto& row : other.value[static_cast<std::size_t>(j)].any) row.fill({kRarely, kRarelySeen});
     for (int j = 0; j < common; ++j) {
         other.value[static_cast<std::size_t>(j)] = statistics.value[static_cast<std::size_t>(j)];
-        for (int c = 0; c < kGapClasses; ++c) {
+        for (int c = 0; c < kRowClasses; ++c) {
             const std::int32_t* from = statistics.weights.data() + statistics.weights_at(j, c);
             std::int32_t* to = other.weights.data() + other.weights_at(j, c);
             std::fill(to, to + 1 + components, 0);

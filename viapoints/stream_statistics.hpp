@@ -17,8 +17,10 @@
 
 namespace viaface {
 
-inline constexpr int kGapClasses = 4;  // by length; the last one is the start of a segment
-inline constexpr int kStartClass = 3;
+inline constexpr int kRowClasses = 5;   // 0 to 2 by the gap before
+inline constexpr int kStartClass = 3;   // the first row of a segment
+inline constexpr int kStillClass = 4;   // two rows before that are the same
+inline constexpr int kGapContexts = 4;  // 0 to 2 by the gap before; 3: the rows before are the same
 inline constexpr int kMostGapTicks = 64;
 inline constexpr int kUnaryLimit = 14;
 inline constexpr std::int32_t kLargestValue = 1 << 15;  // of a quantised component, either way
@@ -31,33 +33,46 @@ int gap_class(int gap_ticks);
 struct ViaPast {
     const ViaValues& last;    // n-1; zeros at a start
     const ViaValues& before;  // n-2; as last where there is none
+    bool start, still;        // none is known; two are, and the same
 };
 
 inline ViaPast past_of(const std::vector<ViaValues>& values, std::size_t n, const ViaValues& zeros) {
-    return {n > 0 ? values[n - 1] : zeros, n > 1 ? values[n - 2] : n > 0 ? values[n - 1] : zeros};
+    const ViaValues& last = n > 0 ? values[n - 1] : zeros;
+    return {last, n > 1 ? values[n - 2] : last, n == 0, n > 1 && values[n - 2] == last};
+}
+
+inline int row_class(const ViaPast& past, int gap_ticks) {
+    return past.start ? kStartClass : past.still ? kStillClass : gap_class(gap_ticks);
 }
 
 struct Prediction {
     std::int32_t nearest = 0;
     int side = 0;  // 0: the nearest is about right, 1: a little more is likely, 2: a little less
 };
+Prediction rounded_prediction(std::int64_t sum);  // in 1/4096
 
 struct ValueContexts {
     static constexpr int kActivities = 3;
-    std::array<std::array<AdaptiveBit, kActivities>, kGapClasses> any;
+    std::array<std::array<AdaptiveBit, kActivities>, kRowClasses> any;
     std::array<std::array<AdaptiveBit, 3>, 2> negative;
     std::array<std::array<AdaptiveBit, kUnaryLimit>, kActivities> more;
+    std::array<AdaptiveBit, kUnaryLimit> more_still;
+
+    auto& more_of(int row, std::size_t active) { return row == kStillClass ? more_still : more[active]; }
+    const auto& more_of(int row, std::size_t active) const {
+        return row == kStillClass ? more_still : more[active];
+    }
 };
 
 struct GapContexts {
-    std::array<std::array<AdaptiveBit, kMostGapTicks>, 3> longer;  // by the class of the gap before
+    std::array<std::array<AdaptiveBit, kMostGapTicks>, kGapContexts> longer;  // by what is before
 };
 
 struct StreamStatistics {
     int components = 0;
     double bound_mm = 1;                // at which they were learned
     double step_mm = 2;                 // of every component
-    std::vector<std::int32_t> weights;  // [components][kGapClasses][features(j)], in 1/4096
+    std::vector<std::int32_t> weights;  // [components][kRowClasses][features(j)], in 1/4096
     std::vector<ValueContexts> value;   // one per component
     GapContexts gap;
     AdaptiveBit beyond;  // of what exceeds the unary count
@@ -65,8 +80,9 @@ struct StreamStatistics {
     static std::size_t features(int components, int j) {
         return static_cast<std::size_t>(2 + components + j);
     }
-    std::size_t weights_at(int j, int gap_class) const;
-    Prediction predict(int j, int gap_class, const ViaPast& past, const ViaValues& now) const;
+    std::size_t weights_at(int j, int row) const;
+    std::int64_t prediction_sum(int j, int row, const ViaPast& past, const ViaValues& now) const;
+    Prediction predict(int j, int row, const ViaPast& past, const ViaValues& now) const;
 };
 
 // Every probability, in the order of FORMAT.md.
@@ -79,6 +95,7 @@ void for_each_bit(StreamStatistics& statistics, const auto& visit) {
         all(contexts.any);
         all(contexts.negative);
         all(contexts.more);
+        for (AdaptiveBit& bit : contexts.more_still) visit(bit);
     }
     all(statistics.gap.longer);
     visit(statistics.beyond);
@@ -101,8 +118,8 @@ class ViaCoder {
     ViaCoder(Coder& coder, StreamStatistics statistics) : coder_(coder), known_(std::move(statistics)) {}
 
     // 1 to at_most; at_most at least 1
-    int gap(int ticks, int at_most) {
-        auto& contexts = known_.gap.longer[static_cast<std::size_t>(last_class_)];
+    int gap(int ticks, int at_most, bool still) {
+        auto& contexts = known_.gap.longer[static_cast<std::size_t>(still ? kGapContexts - 1 : last_class_)];
         int coded = 1;
         while (coded < at_most && coder_.bit(contexts[static_cast<std::size_t>(coded - 1)], ticks > coded))
             ++coded;
@@ -111,31 +128,31 @@ class ViaCoder {
     }
 
     // A via point's values; `values` is given by an encoder and filled by a decoder.
-    void values(ViaValues& values, const ViaPast& past, int gap_class) {
+    void values(ViaValues& values, const ViaPast& past, int gap_ticks) {
+        const int row = row_class(past, gap_ticks);
         int active = 0;
         for (int j = 0; j < known_.components; ++j) {
-            const Prediction predicted = known_.predict(j, gap_class, past, values);
+            const Prediction predicted = known_.predict(j, row, past, values);
             const auto at = static_cast<std::size_t>(j);
-            const std::int32_t rest = difference(values[at] - predicted.nearest, known_.value[at], gap_class,
+            const std::int32_t rest = difference(values[at] - predicted.nearest, known_.value[at], row,
                                                  active < 2 ? active : 2, predicted.side);
             values[at] = predicted.nearest + rest;
             active += rest != 0;
         }
     }
 
-    const StreamStatistics& known() const { return known_; }
+    StreamStatistics& known() { return known_; }  // its contexts are those that the coder is given
 
   private:
-    std::int32_t difference(std::int32_t wanted, ValueContexts& contexts, int gap_class, int active,
-                            int side) {
+    std::int32_t difference(std::int32_t wanted, ValueContexts& contexts, int row, int active, int side) {
         const auto a = static_cast<std::size_t>(active);
-        if (!coder_.bit(contexts.any[static_cast<std::size_t>(gap_class)][a], wanted != 0)) return 0;
-        const bool negative = coder_.bit(
-            contexts.negative[gap_class == kStartClass][static_cast<std::size_t>(side)], wanted < 0);
+        if (!coder_.bit(contexts.any[static_cast<std::size_t>(row)][a], wanted != 0)) return 0;
+        const bool negative =
+            coder_.bit(contexts.negative[row == kStartClass][static_cast<std::size_t>(side)], wanted < 0);
         const std::int32_t size = negative ? -wanted : wanted;
+        auto& more = contexts.more_of(row, a);
         std::int32_t coded = 1;
-        while (coded <= kUnaryLimit &&
-               coder_.bit(contexts.more[a][static_cast<std::size_t>(coded - 1)], size > coded))
+        while (coded <= kUnaryLimit && coder_.bit(more[static_cast<std::size_t>(coded - 1)], size > coded))
             ++coded;
         if (coded > kUnaryLimit)
             coded += static_cast<std::int32_t>(far(static_cast<std::uint32_t>(size - coded)));
