@@ -12,6 +12,10 @@ namespace {
 
 constexpr int kFewestFrames = 3;                       // of a phone: one for each state of its model
 constexpr double kEvenLoss = 0.7, kLossSteepness = 3;  // nats a frame; 1 / nats
+constexpr double kUnsaidLoss = 12, kBreaths = 0.1;     // nats a frame for all of the speech; share of it
+constexpr double kLoud = 0.03;                         // of the words' power: -15 dB
+
+bool is_phone(const HeardPhone& heard) { return heard.arc >= 0; }
 
 // Phones in a chain; before every word and after the last, a pause or nothing.
 struct Chain {
@@ -43,21 +47,19 @@ Chain chain_of(const Pronunciation& said) {
     return chain;
 }
 
-// The phones' own part of the path, one for each phone said.
-std::vector<HeardPhone> heard_phones(const Recording& recording, const Pronunciation& said,
-                                     const std::string& field) {
-    const double seconds = recording.sound.seconds();
-    const auto path = std::ssize(recording.at_16_khz) / kDecoderStep < kFewestFrames * std::ssize(said.phones)
-                          ? std::vector<HeardPhone>()
-                          : likeliest_path(recording.at_16_khz, chain_of(said).graph);
-    std::vector<HeardPhone> phones;
-    std::copy_if(path.begin(), path.end(), std::back_inserter(phones), [](auto& h) { return h.arc >= 0; });
-    if (phones.size() != said.phones.size()) {
+// The likeliest path, pauses with it: one phone heard for each phone said.
+std::vector<HeardPhone> heard_path(const Recording& recording, const Pronunciation& said,
+                                   const std::string& field) {
+    auto path = std::ssize(recording.at_16_khz) / kDecoderStep < kFewestFrames * std::ssize(said.phones)
+                    ? std::vector<HeardPhone>()
+                    : likeliest_path(recording.at_16_khz, chain_of(said).graph);
+    if (std::count_if(path.begin(), path.end(), is_phone) != std::ssize(said.phones)) {
         char value[80];
-        std::snprintf(value, sizeof value, "%.2f s of sound for %zu phones", seconds, said.phones.size());
+        std::snprintf(value, sizeof value, "%.2f s of sound for %zu phones", recording.sound.seconds(),
+                      said.phones.size());
         throw InputError(field, value, "a recording that says the transcript, at least 30 ms a phone");
     }
-    return phones;
+    return path;
 }
 
 // Puts phones after each other on the recording's clock, with pauses in the gaps.
@@ -104,39 +106,100 @@ class Labels {
     Utterance said_;
 };
 
-// ln P of a path over frames [begin, end), a phone's score spread evenly over its frames.
-double score_in(const std::vector<HeardPhone>& path, int begin, int end) {
-    double sum = 0;
+struct Frame {
+    double score = 0;  // ln P, a phone's own spread evenly over its frames
+    bool is_phone = false;
+};
+
+std::vector<Frame> frames_of(const std::vector<HeardPhone>& path) {
+    std::vector<Frame> frames;
     for (const HeardPhone& heard : path) {
-        const int from = std::max(begin, heard.first_frame);
-        const int common = std::min(end, heard.first_frame + heard.frames) - from;
-        if (common > 0) sum += heard.score * common / heard.frames;
+        frames.resize(static_cast<std::size_t>(heard.first_frame));
+        frames.insert(frames.end(), static_cast<std::size_t>(heard.frames),
+                      {heard.score / heard.frames, is_phone(heard)});
     }
-    return sum;
+    return frames;
 }
 
+std::vector<double> powers_of(std::span<const std::int16_t> at_16_khz, std::size_t frames) {
+    std::vector<double> powers(frames);
+    for (std::size_t i = 0; i < frames; ++i) {
+        const std::size_t begin = std::min(at_16_khz.size(), i * kDecoderStep + kDecoderDelay);
+        for (const double s :
+             at_16_khz.subspan(begin).first(std::min<std::size_t>(kDecoderStep, at_16_khz.size() - begin)))
+            powers[i] += s * s;
+    }
+    return powers;
+}
+
+// What the transcript loses against any phones, over its words and over what any phones hear beside them.
+struct Losses {
+    std::vector<Frame> said, any;  // [frames]
+    std::vector<double> power;     // [frames]
+    double power_of_words = 0;     // of a mean frame
+
+    Losses(std::span<const std::int16_t> at_16_khz, const std::vector<HeardPhone>& path)
+        : said(frames_of(path)), any(frames_of(likeliest_path(at_16_khz, any_phones()))) {
+        said.resize(any.size());
+        power = powers_of(at_16_khz, any.size());
+        double frames = 0;
+        for (std::size_t i = 0; i < said.size(); ++i) {
+            power_of_words += said[i].is_phone * power[i];
+            frames += said[i].is_phone;
+        }
+        power_of_words /= frames;
+    }
+
+    double in(std::size_t begin, std::size_t end) const {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += any[i].score - said[i].score;
+        return sum / static_cast<double>(end - begin);
+    }
+    // Any phones hear noise in a pause too, but not as loud as the words.
+    bool is_unsaid(std::size_t i) const {
+        return any[i].is_phone && !said[i].is_phone && power[i] > kLoud * power_of_words;
+    }
+    double in_speech() const {
+        double sum = 0, frames = 0;
+        for (std::size_t i = 0; i < said.size(); ++i) {
+            if (!said[i].is_phone && !is_unsaid(i)) continue;
+            sum += any[i].score - said[i].score;
+            ++frames;
+        }
+        return sum / frames;
+    }
+    double unsaid() const {
+        double speech = 0, unsaid = 0;
+        for (std::size_t i = 0; i < any.size(); ++i) {
+            speech += said[i].is_phone || is_unsaid(i);
+            unsaid += is_unsaid(i);
+        }
+        return unsaid / speech;
+    }
+};
+
 void add_losses(Alignment& alignment, const std::vector<HeardPhone>& phones, const Pronunciation& said,
-                const std::vector<HeardPhone>& any) {
-    double sum = 0, frames = 0;
+                const Losses& losses) {
     for (std::size_t first = 0; first < phones.size();) {
         std::size_t last = first;
-        double score = phones[first].score;
-        while (last + 1 < phones.size() && !begins_word(said, last + 1)) score += phones[++last].score;
-        const int begin = phones[first].first_frame, end = phones[last].first_frame + phones[last].frames;
-        const double loss = score_in(any, begin, end) - score;
-        alignment.loss.push_back(loss / (end - begin));
-        sum += loss;
-        frames += end - begin;
+        while (last + 1 < phones.size() && !begins_word(said, last + 1)) ++last;
+        alignment.loss.push_back(
+            losses.in(static_cast<std::size_t>(phones[first].first_frame),
+                      static_cast<std::size_t>(phones[last].first_frame + phones[last].frames)));
         first = last + 1;
     }
-    alignment.mean_loss = sum / frames;
-    alignment.confidence = 1 / (1 + std::exp(kLossSteepness * (alignment.mean_loss - kEvenLoss)));
+    alignment.mean_loss = losses.in_speech();
+    alignment.unsaid = losses.unsaid();
+    const double loss = alignment.mean_loss + kUnsaidLoss * std::max(0.0, alignment.unsaid - kBreaths);
+    alignment.confidence = 1 / (1 + std::exp(kLossSteepness * (loss - kEvenLoss)));
 }
 
 }  // namespace
 
 Alignment align_anyhow(const Recording& recording, const Pronunciation& said, const std::string& field) {
-    const std::vector<HeardPhone> phones = heard_phones(recording, said, field);
+    const auto path = heard_path(recording, said, field);
+    std::vector<HeardPhone> phones;
+    std::copy_if(path.begin(), path.end(), std::back_inserter(phones), is_phone);
     Labels labels(recording.sound);
     for (std::size_t i = 0; i < phones.size(); ++i) {
         const int word = said.word_of_phone[i];
@@ -144,15 +207,16 @@ Alignment align_anyhow(const Recording& recording, const Pronunciation& said, co
     }
     Alignment alignment;
     alignment.utterance = labels.finish();
-    add_losses(alignment, phones, said, likeliest_path(recording.at_16_khz, any_phones()));
+    add_losses(alignment, phones, said, Losses(recording.at_16_khz, path));
     return alignment;
 }
 
 Alignment align(const Recording& recording, const Pronunciation& said, const std::string& field) {
     Alignment alignment = align_anyhow(recording, said, field);
     if (!(alignment.confidence >= kLeastConfidence)) {
-        char value[80], allowed[120];
-        std::snprintf(value, sizeof value, "confidence %.2f", alignment.confidence);
+        char value[100], allowed[120];
+        std::snprintf(value, sizeof value, "confidence %.2f, %.0f%% of the speech heard is outside its words",
+                      alignment.confidence, 100 * alignment.unsaid);
         std::snprintf(allowed, sizeof allowed,
                       "the words that the recording says: a confidence of at least %.2f", kLeastConfidence);
         throw InputError(field, value, allowed);

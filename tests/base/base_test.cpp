@@ -5,6 +5,7 @@
 #include "base/bytes.hpp"
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace viaface {
 namespace {
@@ -38,17 +39,14 @@ TEST(InputError, ShowsLongAndUnprintableValuesShortened) {
 }
 
 TEST(WholeFile, IsAbsentUntilCommitted) {
-    const auto folder = std::filesystem::temp_directory_path() / "viaface_whole_file_test";
-    std::filesystem::create_directories(folder);
+    const test::ScratchFolder folder;
     const auto path = folder / "x.txt";
-    std::filesystem::remove(path);
     { const WholeFile file(path); }
-    EXPECT_TRUE(std::filesystem::is_empty(folder));
+    EXPECT_TRUE(folder.is_empty());
     write_whole(path, std::string_view("one"));
     EXPECT_EQ(read_text(path, "x"), "one");
     EXPECT_THROW(WholeFile(folder / "missing" / "y"), InputError);
     EXPECT_THROW(read_text(folder / "absent", "x"), InputError);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

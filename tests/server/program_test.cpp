@@ -14,6 +14,7 @@
 #include "server/openapi.hpp"
 #include "synth/film/media_reader.hpp"
 #include "synth/speech/text_grid.hpp"
+#include "tests/scratch_folder.hpp"
 #include "tests/server/schema_check.hpp"
 #include "viapoints/motion_csv.hpp"
 
@@ -29,12 +30,6 @@ constexpr int kFps = 25;
 
 class Program : public testing::Test {
   protected:
-    Program() {
-        std::string name = (fs::temp_directory_path() / "viaface_program_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~Program() override { fs::remove_all(folder_); }
-
     Outcome run(const Arguments& arguments, const std::string& input = "") const {
         return ProgramRun(folder_, arguments, input).outcome();
     }
@@ -58,7 +53,8 @@ class Program : public testing::Test {
         return found;
     }
 
-    fs::path folder_;
+    const test::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
 };
 
 struct Decoded {

@@ -10,6 +10,7 @@
 #include "synth/speech/flite_voice.hpp"
 #include "synth/speech/text_grid.hpp"
 #include "synth/speech/wav.hpp"
+#include "tests/scratch_folder.hpp"
 #include "tests/server/program.hpp"
 #include "viapoints/motion_csv.hpp"
 
@@ -24,13 +25,10 @@ constexpr const char* kText = "My mother bought a boat.";
 class RecordedSpeechProgram : public testing::Test {
   protected:
     RecordedSpeechProgram() {
-        std::string name = (fs::temp_directory_path() / "viaface_recorded_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
         said_ = FliteVoice("slt").speak(kText);
         const Bytes wave = write_wav(said_.sound);
         write_whole(folder_ / "speech.wav", std::span(wave));
     }
-    ~RecordedSpeechProgram() override { fs::remove_all(folder_); }
 
     Outcome run(const Arguments& arguments) const { return ProgramRun(folder_, arguments).outcome(); }
     Outcome say(const Arguments& more) const {
@@ -40,7 +38,8 @@ class RecordedSpeechProgram : public testing::Test {
     }
     TextGrid grid(const std::string& name) const { return read_text_grid(read_text(folder_ / name, name)); }
 
-    fs::path folder_;
+    const test::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
     Utterance said_;
 };
 

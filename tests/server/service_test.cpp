@@ -88,6 +88,8 @@ TEST(Service, RefusesRubbishAsProblemsThatNameTheField) {
     const Refused cases[] = {
         {{{"text", ""}}, 422, "text"},
         {{{"text", "?!"}}, 422, "text"},
+        {{{"text", "\xf0\x9f\x98\x80\xf0\x9f\x8e\x89"}}, 422, "text"},  // two emoji
+        {{{"text", std::string("Hi\0there.", 9)}}, 422, "text"},
         {{{"text", long_word}}, 422, "text"},
         {{{"text", 3}}, 422, "text"},
         {{{"text", "Hi."}, {"phones", "aa1"}}, 422, "phones"},
@@ -122,6 +124,8 @@ TEST(Service, RefusesWhatIsNotJsonTooLongOrElsewhere) {
     auto client = served.client();
     EXPECT_EQ(client.Post("/v1/videos", "{\"text\": ", "application/json")->status, 400);
     EXPECT_EQ(client.Post("/v1/videos", "{\"text\": \"\xff\"}", "application/json")->status, 400);
+    EXPECT_EQ(client.Post("/v1/videos", R"({"text": "Hi.", "fps": NaN})", "application/json")->status, 400);
+    EXPECT_EQ(client.Post("/v1/videos", R"({"text": "Hi.", "fps": 1e999})", "application/json")->status, 400);
     EXPECT_EQ(client.Post("/v1/videos", "text=hi", "application/x-www-form-urlencoded")->status, 415);
     EXPECT_EQ(client.Post("/v1/videos", std::string(kLargestBody + 1, ' '), "application/json")->status, 413);
     EXPECT_EQ(client.Post("/v1/videos", std::string(kDeepestJson + 1, '['), "application/json")->status, 400);

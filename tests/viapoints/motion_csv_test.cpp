@@ -8,6 +8,7 @@
 #include <locale>
 
 #include "base/error.hpp"
+#include "tests/scratch_folder.hpp"
 #include "tests/viapoints/smooth_motion.hpp"
 
 namespace viaface {
@@ -79,7 +80,8 @@ TEST(MotionCsv, WrittenAndReadBackIsEqualBitByBit) {
 }
 
 TEST(MotionCsv, FilesReadBackToo) {
-    const auto path = std::filesystem::path(testing::TempDir()) / "viaface_motion_csv_test.csv";
+    const test::ScratchFolder folder;
+    const auto path = folder / "motion.csv";
     const Motion motion = smooth_motion(2, 1, 60, kPoints);
     write_motion_csv(path, motion);
     expect_same(read_motion_csv(path).motion, motion);

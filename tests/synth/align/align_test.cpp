@@ -86,6 +86,12 @@ TEST_P(AlignedVoice, WordsThatAreNotSaidAreRefused) {
     }
 }
 
+TEST_P(AlignedVoice, PartsOfWhatIsSaidAreRefused) {
+    const Recording said = recording_of(FliteVoice(GetParam()).speak(kSentences[0]).sound);
+    for (const char* part : {"x", "The birch canoe", "slid on the smooth planks"})
+        EXPECT_THROW(align(said, pronounced(part), "transcript"), InputError) << part;
+}
+
 TEST(Align, APersonsPhonesBeginWhereTheyWereLabelled) {
     const auto folder = std::filesystem::path(VIAFACE_SOURCE_DIR) / ".." / "shared" / "data" / "haskins_f01";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs the recording in " << folder;

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "synth/speech/wav.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace viaface {
 namespace {
@@ -16,12 +17,6 @@ namespace fs = std::filesystem;
 
 class RecordingTest : public testing::Test {
   protected:
-    RecordingTest() {
-        std::string name = (fs::temp_directory_path() / "viaface_recording_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~RecordingTest() override { fs::remove_all(folder_); }
-
     fs::path written(const Waveform& sound) const {
         const Bytes bytes = write_wav(sound);
         write_whole(folder_ / "a.wav", std::span(bytes));
@@ -38,7 +33,8 @@ class RecordingTest : public testing::Test {
         }
     }
 
-    fs::path folder_;
+    const test::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
 };
 
 Waveform tone(int rate, double seconds) {

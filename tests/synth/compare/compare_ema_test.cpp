@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace viaface {
 namespace {
@@ -82,10 +83,11 @@ TEST(CompareEma, MotionHasToCoverThePhones) {
 class ReadEma : public ::testing::Test {
   protected:
     fs::path write(const std::string& name, const std::string& text) {
-        const fs::path file = fs::path(::testing::TempDir()) / ("viaface_ema_" + name);
+        const fs::path file = folder_ / name;
         write_whole(file, std::string_view(text));
         return file;
     }
+    const test::ScratchFolder folder_;
     std::string header_ = "t_s,UL_x_mm,UL_y_mm,UL_z_mm,LL_x_mm,LL_y_mm,LL_z_mm,JAW_x_mm,JAW_y_mm,JAW_z_mm\n";
     std::string phones_ = "# said\n0.0 0.1 sp\n0.1 0.2 AA1\n0.2 0.3 sp\n";
 };

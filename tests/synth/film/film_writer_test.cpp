@@ -33,7 +33,7 @@ struct Way {
 Bytes film_bytes(const Way& way, Clip clip) {
     clip.spec.format = way.format;
     if (way.streamed) return streamed(clip);
-    const Folder folder;
+    const ScratchFolder folder;
     const fs::path path = folder / "film";
     write_clip(*open_film(clip.spec, path), clip);
     return read_bytes(path, "film");
@@ -158,7 +158,7 @@ TEST_P(EveryContainer, SoundLiesOnTheWaveformFromTheFirstSample) {
 // Another program's idea of the same file.
 TEST_P(EveryContainer, SoundLiesOnTheWaveformForFfmpegToo) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg program here";
-    const Folder folder;
+    const ScratchFolder folder;
     write_whole(folder / "film", film_bytes(GetParam(), {}));
     const std::string command = "ffmpeg -v quiet -i " + (folder / "film").string() +
                                 " -vn -f s16le -ar 48000 -ac 1 " + (folder / "raw").string();
@@ -215,7 +215,7 @@ TEST_P(EveryContainer, TellsNeitherVersionNorSettings) {
 TEST_P(EveryContainer, ReadsRowsStoredBottomFirst) {
     Clip clip;
     clip.spec.format = GetParam().format;
-    const Folder folder;
+    const ScratchFolder folder;
     for (const std::string name : {"down", "up"}) {
         const auto film = open_film(clip.spec, folder / name);
         Frame frame = moving_picture(clip.spec.width, clip.spec.height, 3);
@@ -330,7 +330,7 @@ TEST(Film, HandsOnWhatTheSinkThrows) {
 }
 
 TEST(Film, AbandonedLeavesNothingBehind) {
-    const Folder folder;
+    const ScratchFolder folder;
     for (const FilmFormat format : {FilmFormat::kMp4, FilmFormat::kMkv, FilmFormat::kPng}) {
         FilmSpec spec{128, 96, {30, 1}, format, 16000};
         const auto film = open_film(spec, folder / "film");
@@ -342,7 +342,7 @@ TEST(Film, AbandonedLeavesNothingBehind) {
 }
 
 TEST(Film, RefusesAFilmWithoutFramesOrWithTooFew) {
-    const Folder folder;
+    const ScratchFolder folder;
     for (const FilmFormat format : {FilmFormat::kMp4, FilmFormat::kMkv, FilmFormat::kPng}) {
         const FilmSpec spec{128, 96, {30, 1}, format, 16000};
         EXPECT_THROW(open_film(spec, folder / "none")->finish(), std::invalid_argument);
@@ -355,7 +355,7 @@ TEST(Film, RefusesAFilmWithoutFramesOrWithTooFew) {
 }
 
 TEST(Film, RefusesAFrameOfAnotherSize) {
-    const Folder folder;
+    const ScratchFolder folder;
     const auto film = open_film({128, 96, {30, 1}, FilmFormat::kMkv, 16000}, folder / "film");
     film->add_frame(view(moving_picture(96, 128, 0)));
     EXPECT_THROW(film->finish(), std::invalid_argument);
@@ -393,7 +393,7 @@ TEST(Film, AnMkvStreamLeavesAsItIsMade) {
 // ---- png ----
 
 TEST(Film, PngFolderHoldsFramesWithAlphaAndSound) {
-    const Folder folder;
+    const ScratchFolder folder;
     Clip clip{.spec = {33, 17, {30, 1}, FilmFormat::kPng, 16000}, .frames = 5, .samples = 2000};
     write_clip(*open_film(clip.spec, folder / "film"), clip);
     for (int n = 0; n < 5; ++n) {
@@ -408,7 +408,7 @@ TEST(Film, PngFolderHoldsFramesWithAlphaAndSound) {
 }
 
 TEST(Film, PngKeepsAlpha) {
-    const Folder folder;
+    const ScratchFolder folder;
     Frame glass = moving_picture(16, 16, 0);
     for (std::size_t i = 3; i < glass.rgba.size(); i += 4) glass.rgba[i] = static_cast<std::uint8_t>(i / 4);
     const auto film = open_film({16, 16, {30, 1}, FilmFormat::kPng, 16000}, folder / "film");

@@ -28,7 +28,7 @@ void read_rubbish(std::span<const std::uint8_t> bytes) {
 }
 
 TEST(MediaReader, RefusesWhatIsNoMedia) {
-    const Folder folder;
+    const ScratchFolder folder;
     write_whole(folder / "text.mp4", std::string_view("no film at all, only words\n"));
     write_whole(folder / "empty.mp4", std::string_view());
     for (const char* name : {"text.mp4", "empty.mp4", "missing.mp4", ""}) {
@@ -46,7 +46,7 @@ TEST(MediaReader, TellsSizeAndRate) {
 }
 
 TEST(MediaReader, ReadsAFileAsItReadsItsBytes) {
-    const Folder folder;
+    const ScratchFolder folder;
     const Bytes film = streamed({});
     write_whole(folder / "film.mp4", film);
     EXPECT_EQ(read_sound(folder / "film.mp4", 22050), read_sound(std::span(film), 22050));
@@ -61,7 +61,7 @@ TEST(MediaReader, ReadsAFileAsItReadsItsBytes) {
 }
 
 TEST(MediaReader, SaysWhenThereIsNoPicture) {
-    const Folder folder;
+    const ScratchFolder folder;
     const Clip clip{.spec = {16, 16, {30, 1}, FilmFormat::kPng, 16000}, .frames = 30, .samples = 16000};
     write_clip(*open_film(clip.spec, folder / "film"), clip);
     EXPECT_THROW(FrameReader{folder / "film/sound.wav"}, InputError);

@@ -13,6 +13,7 @@
 
 #include "base/bytes.hpp"
 #include "synth/film/film_writer.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace viaface::test {
 
@@ -82,22 +83,5 @@ inline Bytes streamed(const Clip& clip) {
     write_clip(*film, clip);
     return bytes;
 }
-
-// A new empty folder that goes away with it.
-class Folder {
-  public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "viaface_film_XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    bool is_empty() const { return std::filesystem::is_empty(path_); }
-
-  private:
-    std::filesystem::path path_;
-};
 
 }  // namespace viaface::test

@@ -16,6 +16,7 @@
 #include "synth/speech/text_grid.hpp"
 #include "synth/speech/wav.hpp"
 #include "synth/talker/talker.hpp"
+#include "tests/scratch_folder.hpp"
 #include "viapoints/codex_file.hpp"
 #include "viapoints/motion_csv.hpp"
 
@@ -34,12 +35,6 @@ inline Motion csv_motion(const fs::path& file) { return read_motion_csv(file).mo
 
 class InFolder : public ::testing::Test {
   protected:
-    InFolder() {
-        std::string name = (fs::temp_directory_path() / "viaface_learn_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~InFolder() override { fs::remove_all(folder_); }
-
     void put(const std::string& name, std::string_view text) const { write_whole(folder_ / name, text); }
     void put(const std::string& name, const Waveform& sound) const {
         const Bytes bytes = write_wav(sound);
@@ -62,7 +57,8 @@ class InFolder : public ::testing::Test {
         return performed;
     }
 
-    fs::path folder_;
+    const test::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
 };
 
 // The refusal of bad input; its message must hold every one of `parts`.

@@ -6,6 +6,7 @@
 #include "base/whole_file.hpp"
 #include "lipmodel/lip_body.hpp"
 #include "synth/lips/learned_lips.hpp"
+#include "tests/scratch_folder.hpp"
 #include "viapoints/motion_csv.hpp"
 
 namespace viaface {
@@ -18,7 +19,11 @@ const Talker& momo() {
     return talker;
 }
 
-fs::path scratch(const std::string& name) { return fs::path(testing::TempDir()) / ("lips_" + name); }
+class LipFramesOf : public testing::Test {
+  protected:
+    fs::path scratch(const std::string& name) const { return folder_ / name; }
+    const test::ScratchFolder folder_;
+};
 
 // The talker opens and rounds the mouth by two of its shapes, as a Live Link take.
 std::string take(int frames) {
@@ -31,7 +36,7 @@ std::string take(int frames) {
     return text;
 }
 
-TEST(LipFrames, OfATakeRestWhereTheTalkerRests) {
+TEST_F(LipFramesOf, ATakeRestWhereTheTalkerRests) {
     write_whole(scratch("take.csv"), take(120));
     const LipFrames frames = read_lip_frames({scratch("take.csv")}, momo());
     EXPECT_EQ(frames.points.cols(), 120);
@@ -44,7 +49,7 @@ TEST(LipFrames, OfATakeRestWhereTheTalkerRests) {
     EXPECT_LT((marked_of(as_column(model.rest)) - rest).norm(), 1e-6);
 }
 
-TEST(LipFrames, OfMeasuredPointsLeaveOutIncompleteSamples) {
+TEST_F(LipFramesOf, MeasuredPointsLeaveOutIncompleteSamples) {
     write_whole(scratch("take.csv"), take(60));
     const LipFrames whole = read_lip_frames({scratch("take.csv")}, momo());
     Motion motion{{}, RowMatrix::Constant(whole.points.cols(), kCoordinates, NAN), {}};
@@ -65,12 +70,12 @@ TEST(LipFrames, OfMeasuredPointsLeaveOutIncompleteSamples) {
     EXPECT_THROW(frames_of(motion), InputError);
 }
 
-TEST(LipFrames, RefuseWhatDoesNotMove) {
+TEST_F(LipFramesOf, WhatDoesNotMoveAreRefused) {
     write_whole(scratch("still.csv"), std::string("Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,1,0\n"));
     EXPECT_THROW(learn_from(read_lip_frames({scratch("still.csv")}, momo()), {}, {}), InputError);
 }
 
-TEST(LipFrames, OfRecitationsComeFromTheCodex) {
+TEST_F(LipFramesOf, RecitationsComeFromTheCodex) {
     const LipFrames recited = recited_lip_frames(momo());
     EXPECT_GT(recited.points.cols(), 1000);
     EXPECT_TRUE(recited.points.allFinite());

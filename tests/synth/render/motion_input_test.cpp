@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
+#include "tests/scratch_folder.hpp"
 #include "tests/synth/render/spoken_motion.hpp"
 #include "viapoints/motion_c3d.hpp"
 #include "viapoints/motion_csv.hpp"
@@ -19,18 +20,13 @@ namespace fs = std::filesystem;
 
 class MotionFile : public testing::Test {
   protected:
-    MotionFile() {
-        std::string name = (fs::temp_directory_path() / "viaface_motion_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    ~MotionFile() override { fs::remove_all(folder_); }
-
     template <class Content>
     fs::path file(const std::string& name, const Content& content) const {
         write_whole(folder_ / name, content);
         return folder_ / name;
     }
-    fs::path folder_;
+    const test::ScratchFolder scratch_;
+    const fs::path folder_ = scratch_.path();
 };
 
 double apart(const Motion& a, const Motion& b) { return (a.positions - b.positions).cwiseAbs().maxCoeff(); }

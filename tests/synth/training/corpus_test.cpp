@@ -10,6 +10,7 @@
 #include "base/whole_file.hpp"
 #include "synth/learn/sentences.hpp"
 #include "synth/speech/requested_phones.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace viaface {
 namespace {
@@ -60,10 +61,10 @@ TEST(Corpus, HoldsHundredsOfSentencesAndNoneOfTheHeldOut) {
 
 TEST(Corpus, WithoutSentencesIsRefused) {
     EXPECT_THROW(read_sentences(kRoot / "no such file"), InputError);
-    const fs::path comments = fs::path(::testing::TempDir()) / "viaface_only_comments.txt";
+    const test::ScratchFolder folder;
+    const fs::path comments = folder / "comments.txt";
     write_whole(comments, std::string_view("# nothing\n\n"));
     EXPECT_THROW(read_sentences(comments), InputError);
-    fs::remove(comments);
 }
 
 }  // namespace
