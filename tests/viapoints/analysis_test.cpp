@@ -129,6 +129,48 @@ TEST(Analysis, InABasisTheBoundIsStillMillimetresAtEachPoint) {
     EXPECT_THROW(analyse(motion, small, {own * 0.9}), InputError);
 }
 
+// The tracks side by side at the motion's times; dimensions without a track are NaN.
+RowMatrix recovered(const std::vector<ViaPointTrack>& tracks, const std::vector<double>& time_s) {
+    RowMatrix all = RowMatrix::Constant(static_cast<Index>(time_s.size()), std::ssize(tracks), std::nan(""));
+    for (std::size_t d = 0; d < tracks.size(); ++d) {
+        if (!tracks[d].time_s.empty()) all.col(static_cast<Index>(d)) = recover(tracks[d], time_s);
+    }
+    return all;
+}
+
+TEST(Analysis, WithTimesOfTheirOwnTheBoundHoldsAtEachPoint) {
+    const Motion motion = smooth_motion(17, 6, 100, 5);
+    for (const double bound : {0.2, 1.0}) {
+        const SeparateAnalysis analysis = analyse_separately(motion, {bound});
+        ASSERT_EQ(analysis.tracks.size(), static_cast<std::size_t>(kCoordinates));
+        for (std::size_t d = 0; d < analysis.tracks.size(); ++d)
+            EXPECT_EQ(analysis.tracks[d].time_s.empty(), d >= 15) << d;
+        const double error = largest_error(motion, recovered(analysis.tracks, motion.time_s));
+        EXPECT_LE(error, bound);
+        EXPECT_NEAR(error, analysis.max_error_mm, 1e-12);
+        EXPECT_GT(error, 0.2 * bound);
+    }
+}
+
+TEST(Analysis, ComponentsWithTimesOfTheirOwnKeepTheBoundAtEachPoint) {
+    const Motion motion = smooth_motion(18, 6, 100, kPoints, 4);
+    const ConfigurationBasis basis = principal_basis(motion.positions, 4);
+    const SeparateAnalysis analysis = analyse_separately(motion, basis, {1.0});
+    ASSERT_EQ(analysis.tracks.size(), 4u);
+    const double error = largest_error(motion, to_points(basis, recovered(analysis.tracks, motion.time_s)));
+    EXPECT_LE(error, 1.0);
+    EXPECT_NEAR(error, analysis.max_error_mm, 1e-9);
+}
+
+// A still coordinate needs its two ends, however much another moves.
+TEST(Analysis, WithTimesOfTheirOwnWhatIsStillHasTwoViaPoints) {
+    Motion motion = smooth_motion(19, 4, 100, 1);
+    motion.positions.col(1).setConstant(7);
+    const SeparateAnalysis analysis = analyse_separately(motion, {0.2});
+    EXPECT_EQ(analysis.tracks[1].time_s.size(), 2u);
+    EXPECT_GT(analysis.tracks[0].time_s.size(), 4u);
+}
+
 TEST(Analysis, TwiceGivesTheSame) {
     const Motion motion = smooth_motion(11, 6, 120, 18);
     const ViaPointTrack one = analyse(motion), other = analyse(motion);
