@@ -11,15 +11,8 @@
 namespace viaface {
 namespace {
 
-struct Learned {
-    Eigen::MatrixXd frames = test::speaking_mouth(300);
-    LipBody body = lip_body(test::resting_mouth());
-    LipModel model = learn_lips(body, frames, {.modes = 10, .noise_mm = 0.001});
-};
-const Learned& learned() {
-    static const Learned made;
-    return made;
-}
+using test::Learned;
+using test::learned;
 
 Eigen::MatrixXd shapes() {
     const Learned& l = learned();

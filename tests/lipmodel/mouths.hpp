@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "lipmodel/lip_body.hpp"
 #include "lipmodel/lip_mesh.hpp"
+#include "lipmodel/modes.hpp"
 
 namespace viaface::test {
 
@@ -54,6 +56,16 @@ inline Eigen::MatrixXd speaking_mouth(int frames) {
         }
     }
     return spoken;
+}
+
+struct Learned {
+    Eigen::MatrixXd frames = speaking_mouth(300);
+    LipBody body = lip_body(resting_mouth());
+    LipModel model = learn_lips(body, frames, {.modes = 10, .noise_mm = 0.001});
+};
+inline const Learned& learned() {
+    static const Learned made;
+    return made;
 }
 
 }  // namespace viaface::test

@@ -31,6 +31,18 @@ class Page : public testing::Test {
         listening_.join();
     }
 
+    void click_speak(const std::string& first = "") {
+        ASSERT_TRUE(browser_->wait_until("document.querySelectorAll('#voice option').length === 4", 20));
+        browser_->run(first);
+        browser_->click("#speak");
+    }
+    // Several minutes of speech, made slower than it is sent.
+    void begin_a_long_talk() {
+        click_speak(
+            "document.querySelector('#text').value = "
+            "'This goes on and on, sentence after sentence. '.repeat(40);");
+        ASSERT_TRUE(browser_->wait_until("document.querySelector('#video').currentTime > 0.1", 60));
+    }
     int running() const {
         httplib::Client client("127.0.0.1", service_->port());
         return nlohmann::json::parse(client.Get("/healthz")->body)["running"];
@@ -48,8 +60,7 @@ class Page : public testing::Test {
 
 TEST_F(Page, AClickSpeaksAndTheVideoPlaysWithSound) {
     WebDriver& browser = *browser_;
-    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
-    browser.click("#speak");
+    click_speak();
     ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.5", 60))
         << browser.run("return document.querySelector('#message').textContent;");
     EXPECT_EQ(browser.run("return document.querySelector('#video').videoWidth;"), 512);
@@ -72,16 +83,9 @@ TEST_F(Page, AClickSpeaksAndTheVideoPlaysWithSound) {
     if (const char* picture = std::getenv("VIAFACE_PAGE_PICTURE")) browser.save_screenshot(picture);
 }
 
-// Several minutes of speech, made slower than it is sent.
-constexpr const char* kLongText =
-    "document.querySelector('#text').value = 'This goes on and on, sentence after sentence. '.repeat(40);";
-
 TEST_F(Page, PlaysBeforeTheStreamHasEnded) {
     WebDriver& browser = *browser_;
-    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
-    browser.run(kLongText);
-    browser.click("#speak");
-    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.3", 60));
+    begin_a_long_talk();
     const double early = browser.run("return document.querySelector('#video').currentTime;");
     EXPECT_TRUE(browser.wait_until(
         "document.querySelector('#video').currentTime > " + std::to_string(early + 0.3), 30));
@@ -91,10 +95,7 @@ TEST_F(Page, PlaysBeforeTheStreamHasEnded) {
 
 TEST_F(Page, StopEndsTheWorkOfTheService) {
     WebDriver& browser = *browser_;
-    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
-    browser.run(kLongText);
-    browser.click("#speak");
-    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.1", 60));
+    begin_a_long_talk();
     browser.click("#stop");
     EXPECT_TRUE(browser.wait_until("document.querySelector('#video').paused", 10));
     EXPECT_TRUE(becomes_idle());
@@ -103,10 +104,7 @@ TEST_F(Page, StopEndsTheWorkOfTheService) {
 
 TEST_F(Page, ANewRequestEndsTheOneBefore) {
     WebDriver& browser = *browser_;
-    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
-    browser.run(kLongText);
-    browser.click("#speak");
-    ASSERT_TRUE(browser.wait_until("document.querySelector('#video').currentTime > 0.1", 60));
+    begin_a_long_talk();
     browser.run("document.querySelector('#text').value = 'Hello.';");
     browser.click("#speak");
     EXPECT_TRUE(browser.wait_until("document.querySelector('#video').ended", 60));
@@ -116,9 +114,7 @@ TEST_F(Page, ANewRequestEndsTheOneBefore) {
 
 TEST_F(Page, SaysWhatIsWrongWithTheText) {
     WebDriver& browser = *browser_;
-    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#voice option').length === 4", 20));
-    browser.run("document.querySelector('#text').value = '?!';");
-    browser.click("#speak");
+    click_speak("document.querySelector('#text').value = '?!';");
     EXPECT_TRUE(
         browser.wait_until("document.querySelector('#message.error')?.textContent.includes('text')", 20));
 }
