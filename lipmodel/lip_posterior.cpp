@@ -124,6 +124,12 @@ double LipPosterior::value_at_areas(const Eigen::VectorXd& theta, const Eigen::V
     return sum;
 }
 
+double LipPosterior::mean_fit(const Eigen::VectorXd& theta) const {
+    const Eigen::VectorXd area = areas(theta);
+    const double of_colours = value_at_areas(theta, area) + 0.5 * theta.cwiseAbs2().dot(certainty_);
+    return area.sum() > 0 ? std::exp(of_colours / (gamma_ * area.sum())) : 0;
+}
+
 // d X_c / d(what of the pose is free) at a place [3 x free].
 Eigen::MatrixXd LipPosterior::pose_slopes(const Eigen::VectorXd& theta, const LipPose& pose,
                                           const Eigen::Vector3d& in_camera) const {

@@ -41,6 +41,7 @@ class LipPosterior {
     double value(const Eigen::VectorXd& theta) const;           // eqs. 17-19
     Eigen::VectorXd areas(const Eigen::VectorXd& theta) const;  // A_n [faces], px^2
     double value_at_areas(const Eigen::VectorXd& theta, const Eigen::VectorXd& areas) const;
+    double mean_fit(const Eigen::VectorXd& theta) const;  // exp of the mean of log f over the area, 0 to 1
     // One row per face: gamma A_n d log f_n / d theta [faces x parameters]; the sum of rows is eq. 23.
     Eigen::MatrixXd face_slopes(const Eigen::VectorXd& theta) const;
     Eigen::VectorXd gradient(const Eigen::VectorXd& theta) const;  // eqs. 21-24

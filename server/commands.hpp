@@ -21,6 +21,7 @@ Command add_via(CLI::App& program);
 Command add_motion(CLI::App& program);
 Command add_render(CLI::App& program);
 Command add_lips(CLI::App& program);
+Command add_track(CLI::App& program);
 
 // The folder of the built-in talkers: $VIAFACE_TALKERS, else the one of the source tree the program was built
 // from.

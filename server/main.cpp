@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
     const Adder adders[] = {viaface::add_say,    viaface::add_serve, viaface::add_talker,
                             viaface::add_align,  viaface::add_codex, viaface::add_compare,
                             viaface::add_bench,  viaface::add_via,   viaface::add_motion,
-                            viaface::add_render, viaface::add_lips};
+                            viaface::add_render, viaface::add_lips,  viaface::add_track};
     std::vector<std::pair<const CLI::App*, viaface::Command>> commands;
     for (const Adder add : adders) {
         viaface::Command command = add(program);

@@ -1,0 +1,99 @@
+#include "lipmodel/face_finder.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/objdetect.hpp>
+#include <stdexcept>
+
+namespace viaface {
+namespace {
+
+constexpr int kLongestSide = 400;   // px of the picture that is searched
+constexpr int kSmallestFace = 24;   // px there
+constexpr double kEyeHeight = 0.4;  // of the box, where eyes are in most faces
+constexpr double kEyePlace = 0.29;  // of the box, from its sides
+
+cv::CascadeClassifier loaded(const std::filesystem::path& file) {
+    cv::CascadeClassifier cascade;
+    if (!std::filesystem::exists(file) || !cascade.load(file.string()))
+        throw std::runtime_error("no cascade at " + file.string() +
+                                 " (the package opencv-data brings it; $VIAFACE_CASCADES names its folder)");
+    return cascade;
+}
+
+cv::Mat grey(const Picture& picture) {
+    const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
+                      const_cast<std::uint8_t*>(picture.rgb.data()));  // read only
+    cv::Mat made;
+    cv::cvtColor(rgb, made, cv::COLOR_RGB2GRAY);
+    return made;
+}
+
+Eigen::Vector2d middle_of(const cv::Rect& box) {
+    return {box.x + 0.5 * (box.width - 1), box.y + 0.5 * (box.height - 1)};
+}
+
+// The eye among those found in a half of the face: the one nearest to where eyes are.
+std::optional<Eigen::Vector2d> nearest(const std::vector<cv::Rect>& found, const Eigen::Vector2d& usual,
+                                       double reach) {
+    std::optional<Eigen::Vector2d> best;
+    for (const cv::Rect& box : found) {
+        const Eigen::Vector2d place = middle_of(box);
+        if ((place - usual).norm() > reach) continue;
+        if (!best || (place - usual).norm() < (*best - usual).norm()) best = place;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::filesystem::path cascades_folder() {
+    const char* given = std::getenv("VIAFACE_CASCADES");
+    return given != nullptr ? given : VIAFACE_CASCADES_FOLDER;
+}
+
+struct FaceFinder::Cascades {
+    cv::CascadeClassifier face, eye;
+};
+
+FaceFinder::FaceFinder(const std::filesystem::path& cascades)
+    : cascades_(std::make_unique<Cascades>(loaded(cascades / "haarcascade_frontalface_alt2.xml"),
+                                           loaded(cascades / "haarcascade_eye.xml"))) {
+    cv::setNumThreads(1);
+}
+
+FaceFinder::~FaceFinder() = default;
+
+std::optional<FaceInPicture> FaceFinder::find(const Picture& picture) {
+    const cv::Mat whole = grey(picture);
+    const double shrink = std::max(1.0, std::max(picture.width, picture.height) / double{kLongestSide});
+    cv::Mat small;
+    cv::resize(whole, small, {}, 1 / shrink, 1 / shrink, cv::INTER_AREA);
+    std::vector<cv::Rect> faces;
+    cascades_->face.detectMultiScale(small, faces, 1.1, 3, 0, {kSmallestFace, kSmallestFace});
+    if (faces.empty()) return std::nullopt;
+    const cv::Rect box = *std::ranges::max_element(
+        faces, {}, [](const cv::Rect& r) { return std::tuple(r.area(), -r.x, -r.y); });
+    std::vector<cv::Rect> eyes;
+    const cv::Rect upper(box.x, box.y + box.height / 8, box.width, box.height / 2);
+    const int least = std::max(6, box.width / 8), most = box.width / 2;
+    cascades_->eye.detectMultiScale(small(upper & cv::Rect({}, small.size())), eyes, 1.05, 3, 0,
+                                    {least, least}, {most, most});
+    for (cv::Rect& eye : eyes) eye += upper.tl();
+    const double width = box.width;
+    const Eigen::Vector2d corner(box.x, box.y),
+        usual_left = corner + width * Eigen::Vector2d(kEyePlace, kEyeHeight),
+        usual_right = corner + width * Eigen::Vector2d(1 - kEyePlace, kEyeHeight);
+    const auto left = nearest(eyes, usual_left, 0.15 * width),
+               right = nearest(eyes, usual_right, 0.15 * width);
+    const auto in_picture = [&](const Eigen::Vector2d& place) {
+        return Eigen::Vector2d((place.array() + 0.5) * shrink - 0.5);
+    };
+    return FaceInPicture{.left_eye = in_picture(left && right ? *left : usual_left),
+                         .right_eye = in_picture(left && right ? *right : usual_right),
+                         .eyes_seen = left && right,
+                         .faces = static_cast<int>(faces.size())};
+}
+
+}  // namespace viaface

@@ -1,0 +1,178 @@
+#include "lipmodel/mouth_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace viaface {
+namespace {
+
+// In distances of the eyes, from the middle between them.
+constexpr double kMouthBelow = 1.1, kMouthWidth = 0.8, kMouthHeight = 0.32;
+constexpr double kHalfAcross = 0.62, kFrom = 0.75, kTo = 1.6;
+constexpr double kPlaceSdAcross = 0.3, kPlaceSdDown = 0.25;
+constexpr double kDark = 0.5;  // of the lips' brightness: what lies between them
+constexpr int kSteps = 56;     // of the grid laid over the search box, across
+
+// The search box as a grid along and across the line of the eyes.
+struct Grid {
+    const FaceInPicture& face;
+    double step;  // px
+    int across, down;
+
+    explicit Grid(const FaceInPicture& f)
+        : face(f),
+          step(2 * kHalfAcross * f.eye_distance() / kSteps),
+          across(kSteps + 1),
+          down(static_cast<int>((kTo - kFrom) * f.eye_distance() / step) + 1) {}
+
+    double right(int i) const { return (i - kSteps / 2) * step; }
+    double below(int j) const { return kFrom * face.eye_distance() + j * step; }
+    Eigen::Vector2d place(double right, double below) const {
+        return face.middle() + right * face.along() + below * face.down();
+    }
+};
+
+Rgb seen(const Picture& picture, const Eigen::Vector2d& place) {
+    const int x = std::clamp(static_cast<int>(std::lround(place.x())), 0, picture.width - 1),
+              y = std::clamp(static_cast<int>(std::lround(place.y())), 0, picture.height - 1);
+    return picture.at(x, y);
+}
+
+double hue(const Rgb& c) { return (c[0] + 5.0) / (c[0] + c[1] + 10.0); }
+
+double brightness(const Rgb& c) { return (c[0] + c[1] + c[2]) / 3.0; }
+
+double otsu(std::vector<double> values) {
+    std::ranges::sort(values);
+    const double total = std::accumulate(values.begin(), values.end(), 0.0);
+    double low = 0, best = -1, cut = values.back();
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+        low += values[i];
+        const double n = static_cast<double>(i + 1), m = static_cast<double>(values.size()) - n;
+        const double apart = low / n - (total - low) / m, between = n * m * apart * apart;
+        if (between > best) {
+            best = between;
+            cut = 0.5 * (values[i] + values[i + 1]);
+        }
+    }
+    return cut;
+}
+
+struct Moments {
+    double weight = 0, right = 0, below = 0, right2 = 0, below2 = 0;
+    void add(double w, double r, double b) {
+        weight += w;
+        right += w * r;
+        below += w * b;
+        right2 += w * r * r;
+        below2 += w * b * b;
+    }
+};
+
+struct Reds {
+    Grid grid;
+    std::vector<double> hues;  // [down x across]
+    double cut, skin_mean, skin_sd, lips_mean;
+
+    Reds(const Picture& picture, const FaceInPicture& face) : grid(face) {
+        for (int j = 0; j < grid.down; ++j) {
+            for (int i = 0; i < grid.across; ++i)
+                hues.push_back(hue(seen(picture, grid.place(grid.right(i), grid.below(j)))));
+        }
+        cut = otsu(hues);
+        double below = 0, squares = 0, above = 0;
+        int n = 0, m = 0;
+        for (const double h : hues) {
+            if (h < cut) {
+                below += h;
+                squares += h * h;
+                ++n;
+            } else {
+                above += h;
+                ++m;
+            }
+        }
+        skin_mean = below / std::max(1, n);
+        skin_sd = std::sqrt(std::max(1e-6, squares / std::max(1, n) - skin_mean * skin_mean));
+        lips_mean = above / std::max(1, m);
+    }
+    double at(int i, int j) const { return hues[static_cast<std::size_t>(j) * grid.across + i]; }
+};
+
+}  // namespace
+
+MouthInPicture usual_mouth(const FaceInPicture& face) {
+    const double far = face.eye_distance();
+    return {.centre = face.middle() + kMouthBelow * far * face.down(),
+            .width = kMouthWidth * far,
+            .height = kMouthHeight * far};
+}
+
+MouthInPicture find_mouth(const Picture& picture, const FaceInPicture& face) {
+    const Reds reds(picture, face);
+    const double far = face.eye_distance();
+    double centre_right = 0, centre_below = kMouthBelow * far, sd_across = kPlaceSdAcross * far,
+           sd_down = kPlaceSdDown * far;
+    Moments m;
+    for (int round = 0; round < 6; ++round) {
+        m = {};
+        for (int j = 0; j < reds.grid.down; ++j) {
+            for (int i = 0; i < reds.grid.across; ++i) {
+                if (reds.at(i, j) < reds.cut) continue;
+                const double r = reds.grid.right(i), b = reds.grid.below(j);
+                const double u = (r - centre_right) / sd_across, v = (b - centre_below) / sd_down;
+                m.add(std::exp(-0.5 * (u * u + v * v)), r, b);
+            }
+        }
+        if (!(m.weight > 5)) return usual_mouth(face);
+        centre_right = m.right / m.weight;
+        centre_below = m.below / m.weight;
+        sd_across = 0.25 * far;
+        sd_down = 0.13 * far;
+    }
+    // A lens of uniform red between parabolas has these spreads: width^2 / 20 and height^2 / 17.5, narrowed
+    // by the window.
+    const auto unwindowed = [](double variance, double window) {
+        return std::sqrt(1 / std::max(1e-9, 1 / std::max(1e-9, variance) - 1 / (window * window)));
+    };
+    const double across = unwindowed(m.right2 / m.weight - centre_right * centre_right, sd_across),
+                 down = unwindowed(m.below2 / m.weight - centre_below * centre_below, sd_down);
+    return {.centre = reds.grid.place(centre_right, centre_below),
+            .width = std::clamp(std::sqrt(20.0) * across, 0.6 * far, 1.0 * far),
+            .height = std::clamp(std::sqrt(17.5) * down, 0.2 * far, 0.55 * far),
+            .redness = (reds.lips_mean - reds.skin_mean) / reds.skin_sd};
+}
+
+void add_samples(const Picture& picture, const FaceInPicture& face, const MouthInPicture& mouth,
+                 MouthSamples& samples) {
+    const Reds reds(picture, face);
+    const Eigen::Vector2d centre = mouth.centre - face.middle();
+    const double centre_right = centre.dot(face.along()), centre_below = centre.dot(face.down());
+    double bright = 0;
+    int count = 0;
+    const auto each = [&](auto&& what) {
+        for (int j = 0; j < reds.grid.down; ++j) {
+            for (int i = 0; i < reds.grid.across; ++i) {
+                const double u = (reds.grid.right(i) - centre_right) / (0.5 * mouth.width),
+                             v = (reds.grid.below(j) - centre_below) / (0.5 * mouth.height);
+                what(seen(picture, reds.grid.place(reds.grid.right(i), reds.grid.below(j))),
+                     reds.at(i, j) >= reds.cut, u * u + v * v, std::abs(v));
+            }
+        }
+    };
+    each([&](const Rgb& c, bool red, double far, double) {
+        if (!red || far > 1) return;
+        bright += brightness(c);
+        ++count;
+    });
+    const double dark = count > 0 ? kDark * bright / count : 60;
+    each([&](const Rgb& c, bool red, double far, double height) {
+        if (far > 1.7 && far < 5 && !red) samples.skin.push_back(c);
+        if (far < 1 && red && brightness(c) >= dark) samples.lips.push_back(c);
+        if (far < 0.6 && height < 0.45 && (brightness(c) < dark || (!red && far < 0.3)))
+            samples.opening.push_back(c);
+    });
+}
+
+}  // namespace viaface

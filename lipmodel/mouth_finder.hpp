@@ -1,0 +1,31 @@
+// Where the mouth is below a pair of eyes: the red of the lips beside the skin around them, pseudo hue
+// R / (R + G) [HulbertPoggio98], cut in two by Otsu's threshold. Only a first place for the model, which is
+// fitted afterwards.
+#pragma once
+
+#include "lipmodel/face_finder.hpp"
+
+namespace viaface {
+
+struct MouthInPicture {
+    Eigen::Vector2d centre;        // px
+    double width = 0, height = 0;  // px, along and across the line of the eyes
+    double redness = 0;            // of lips beside skin, in standard deviations of the skin's; 0: none seen
+
+    bool operator==(const MouthInPicture&) const = default;
+};
+
+// Where mouths are under such eyes, whatever the colours.
+MouthInPicture usual_mouth(const FaceInPicture& face);
+
+MouthInPicture find_mouth(const Picture& picture, const FaceInPicture& face);
+
+// What is not the skin's colour in the mouth and not the lips' either: dark, or teeth. First samples of each
+// class, before any model has been fitted.
+struct MouthSamples {
+    std::vector<Rgb> lips, skin, opening;
+};
+void add_samples(const Picture& picture, const FaceInPicture& face, const MouthInPicture& mouth,
+                 MouthSamples& samples);
+
+}  // namespace viaface
