@@ -9,8 +9,8 @@
 namespace viaface {
 namespace {
 
-constexpr int kLongestSide = 400;   // px of the picture that is searched
-constexpr int kSmallestFace = 24;   // px there
+constexpr int kLongestSide = 320;   // px of the picture that is searched
+constexpr int kSmallestFace = 20;   // px there
 constexpr double kEyeHeight = 0.4;  // of the box, where eyes are in most faces
 constexpr double kEyePlace = 0.29;  // of the box, from its sides
 

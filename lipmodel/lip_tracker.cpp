@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kFocal = 1.5;      // of the picture's longer side
 constexpr double kLeastMouth = 12;  // px wide
 constexpr double kLeastLikeness = 0.7, kLeastConfidence = 0.45;
-constexpr std::size_t kMostSamples = 300;  // of a class
+constexpr std::size_t kMostSamples = 200;  // of a class
 constexpr int kRounds = 3;                 // of fitting scales and classes in turns
 constexpr int kPatience = 3;               // pictures of low confidence until the track is lost
 constexpr double kThicknessSd = 1;         // mm

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <iostream>
 
@@ -5,6 +6,7 @@
 #include "base/whole_file.hpp"
 #include "server/commands.hpp"
 #include "server/requests.hpp"
+#include "server/subcommands.hpp"
 #include "synth/lips/learned_lips.hpp"
 #include "synth/lips/lip_report.hpp"
 #include "synth/lips/two_view_motion.hpp"
@@ -107,19 +109,7 @@ Command add_triangulate(CLI::App& lips) {
 Command add_lips(CLI::App& program) {
     CLI::App* app = program.add_subcommand(
         "lips", "The lip model: learned from motion of sixteen points, and what it is worth.");
-    app->require_subcommand(1);
-    using Adder = Command (*)(CLI::App&);
-    std::vector<std::pair<const CLI::App*, Command>> commands;
-    for (const Adder add : {Adder(add_train), Adder(add_report), Adder(add_triangulate)}) {
-        Command command = add(*app);
-        commands.emplace_back(app->get_subcommands({}).back(), std::move(command));
-    }
-    return [commands] {
-        for (const auto& [called, command] : commands) {
-            if (called->parsed()) return command();
-        }
-        return 2;
-    };
+    return one_of(*app, std::array<CommandAdder, 3>{add_train, add_report, add_triangulate});
 }
 
 }  // namespace viaface

@@ -10,12 +10,14 @@
 #include "synth/align/labelled.hpp"
 #include "synth/learn/take_files.hpp"
 #include "viapoints/measured.hpp"
+#include "viapoints/spline.hpp"
 
 namespace viaface {
 namespace {
 
 constexpr std::size_t kBasisSamples = 8000;  // of all takes, half of them for the check
-constexpr double kLongestStep = 0.020;       // s, from sample to sample
+constexpr double kLongestStep = 0.050;       // s, from sample to sample
+constexpr double kLearnedStep = 0.020;       // s: units are cut from steps no longer than this
 constexpr double kUnevenStep = 0.1;  // of a step, that a sample may lie from where a fixed rate has it
 
 std::string printed(const char* format, auto... values) {
@@ -47,7 +49,7 @@ void make_even(Motion& motion) {
                  step = (motion.time_s.back() - begin) / static_cast<double>(n - 1);
     if (step > kLongestStep + 1e-9)
         throw InputError("motion", printed("%.1f samples a second", 1 / step),
-                         "at least 50 samples a second");
+                         "at least 20 samples a second");
     for (std::size_t i = 0; i < n; ++i) {
         const double even = begin + static_cast<double>(i) * step;
         if (std::abs(motion.time_s[i] - even) > kUnevenStep * step) {
@@ -58,11 +60,27 @@ void make_even(Motion& motion) {
     }
 }
 
+// Motion of a film, at 25 frames a second say, with samples between its own on the minimum-jerk spline
+// through them, the same number in each step.
+Motion in_learned_steps(Motion motion) {
+    const std::size_t steps = motion.size() - 1;
+    const double begin = motion.time_s.front(), end = motion.time_s.back();
+    const auto parts =
+        static_cast<std::size_t>(std::ceil((end - begin) / static_cast<double>(steps) / kLearnedStep - 1e-6));
+    if (parts < 2) return motion;
+    std::vector<double> times;
+    for (std::size_t i = 0; i <= steps * parts; ++i)
+        times.push_back(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(steps * parts));
+    const MinimumJerkSpline spline({std::move(motion.time_s), std::move(motion.positions)});
+    Motion made{.time_s = times, .positions = spline.at(times)};
+    return made;
+}
+
 Motion motion_of(const std::filesystem::path& file, const MotionReader& read) {
     Motion motion = read(file);
     measured_points(motion.positions, "motion");
     make_even(motion);
-    return motion;
+    return in_learned_steps(std::move(motion));
 }
 
 struct Spoken {

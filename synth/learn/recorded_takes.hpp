@@ -29,9 +29,11 @@ inline constexpr double kOtherPlace = 6;  // mm, that a take's points at rest ma
 // One motion file as motion of the talker's points, mm, in his head frame; InputError for what is none.
 using MotionReader = std::function<Motion(const std::filesystem::path&)>;
 
-// `progress` hears a line for every take. InputError(field, ...) naming file and cause: what find_takes() and
-// align() refuse, a motion without a point or with gaps, sound and motion that end apart, labels that do not
-// fit, takes that hold other points than the first, or of another scale or place.
+// Motion comes at a fixed rate of at least 20 Hz; under 50 Hz (a film's) samples are put between its own, on
+// the minimum-jerk spline through them. `progress` hears a line for every take. InputError(field, ...) naming
+// file and cause: what find_takes() and align() refuse, a motion without a point or with gaps, sound and
+// motion that end apart, labels that do not fit, takes that hold other points than the first, or of another
+// scale or place.
 RecordedTakes read_takes(const std::filesystem::path& folder, const std::string& field,
                          const MotionReader& read_motion,
                          const std::function<void(const std::string&)>& progress = {});

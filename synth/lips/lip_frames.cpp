@@ -1,14 +1,14 @@
 #include "synth/lips/lip_frames.hpp"
 
+#include <limits>
+
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "lipmodel/lip_body.hpp"
-#include "synth/motion/blend_recording.hpp"
 #include "synth/motion/live_link.hpp"
+#include "synth/motion/motion_input.hpp"
 #include "synth/motion/npy.hpp"
-#include "synth/motion/retarget.hpp"
 #include "viapoints/codex_speak.hpp"
-#include "viapoints/motion_csv.hpp"
 #include "viapoints/spline.hpp"
 
 namespace viaface {
@@ -24,6 +24,12 @@ MarkedPoints lip_points(const Configuration& configuration) {
 bool is_blend_recording(const std::filesystem::path& path) {
     const Bytes bytes = read_bytes(path, "motion", kLargestNpy);
     return is_npy(bytes) || is_live_link({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+// Frames without a face are left out, however many; points stay where they were measured, gaps too.
+MotionInputOptions performed() { return {.longest_gap_s = std::numeric_limits<double>::infinity()}; }
+MotionInputOptions measured() {
+    return {.longest_gap_s = 0, .long_gaps = LongGaps::kLeave, .whose = Whose::kTalkers};
 }
 
 LipFrames joined(const std::vector<LipFrames>& parts) {
@@ -62,9 +68,7 @@ LipFrames read_lip_frames(const std::vector<std::filesystem::path>& motions, con
     for (const auto& path : motions) {
         const bool blend = is_blend_recording(path);
         blends += blend ? 1 : 0;
-        parts.push_back(frames_of(blend
-                                      ? retarget(talker.face, talker.poser, read_blend_recording(path)).motion
-                                      : read_motion_csv(path).motion));
+        parts.push_back(frames_of(read_motion(path, talker, blend ? performed() : measured()).motion));
     }
     if (blends > 0 && blends < motions.size())
         throw InputError("motion", "measured points and blend shapes", "files of one kind");

@@ -1,6 +1,6 @@
 // The sixteen lip points of motions, as the lip model learns from them. [Basu98, section 3]
-// Motion comes as CSV of measured points (viapoints/motion_csv.hpp), or as a take of blend shapes, which is
-// retargeted through a talker's own shapes (synth/motion/retarget.hpp).
+// Motion comes in any file that synth/motion/motion_input.hpp reads: measured points, which stay where they
+// were measured, or a take of blend shapes, which is retargeted through a talker's own shapes.
 #pragma once
 
 #include <filesystem>

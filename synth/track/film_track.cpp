@@ -14,7 +14,7 @@ namespace viaface {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kEvery = 5, kFaces = 10;  // every so many frames is looked at until so many faces are seen
+constexpr int kEvery = 5, kFaces = 8;  // every so many frames is looked at until so many faces are seen
 constexpr int kSearched = 1500, kLearnt = 50;  // frames: until one is seen; from the first one on
 constexpr double kEyeDistance = 90;            // px of the small pictures, at most about twice that
 

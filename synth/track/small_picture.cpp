@@ -2,8 +2,24 @@
 
 namespace viaface {
 
+namespace {
+
+std::vector<std::uint8_t> without_alpha(const Frame& frame) {
+    std::vector<std::uint8_t> rgb(frame.rgba.size() / 4 * 3);
+    for (std::size_t i = 0, k = 0; k < rgb.size(); i += 4, k += 3) {
+        for (std::size_t c = 0; c < 3; ++c) rgb[k + c] = frame.rgba[i + c];
+    }
+    return rgb;
+}
+
+}  // namespace
+
 SmallPicture small_picture(const Frame& frame, int factor) {
     SmallPicture made{.width = frame.width / factor, .height = frame.height / factor};
+    if (factor == 1) {
+        made.rgb = without_alpha(frame);
+        return made;
+    }
     made.rgb.reserve(3 * static_cast<std::size_t>(made.width) * made.height);
     for (int y = 0; y < made.height; ++y) {
         for (int x = 0; x < made.width; ++x) {

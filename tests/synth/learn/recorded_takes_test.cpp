@@ -75,9 +75,29 @@ TEST_F(RecordedTakesTest, MotionThatIsNoneIsNamed) {
     motion.time_s[5] += 0.005;
     put("a.csv", motion);
     refused({"a.csv", "sample 5", "fixed rate"});
-    for (double& time : (motion = performed.take.motion).time_s) time *= 3;
+    for (double& time : (motion = performed.take.motion).time_s) time *= 7;
     put("a.csv", motion);
-    refused({"a.csv", "50 samples a second"});
+    refused({"a.csv", "20 samples a second"});
+}
+
+// Every fourth sample of 100 a second: what a camera would have seen.
+TEST_F(RecordedTakesTest, MotionAtTheRateOfAFilmGetsSamplesBetweenItsOwn) {
+    const PerformedTake performed = put_take("a", kSentence);
+    const Motion& fine = performed.take.motion;
+    ASSERT_NEAR(fine.time_s[1] - fine.time_s[0], 0.01, 1e-9);
+    Motion coarse;
+    for (std::size_t i = 0; i < fine.size(); i += 4) coarse.time_s.push_back(fine.time_s[i]);
+    coarse.positions = fine.positions(Eigen::seqN(0, std::ssize(coarse.time_s), 4), Eigen::all);
+    put("a.csv", coarse);
+    const RecordedTakes takes = read();
+    const Motion& read = takes.takes[0].take.motion;
+    EXPECT_EQ(read.size(), 2 * (coarse.size() - 1) + 1);  // 50 a second
+    const RowMatrix own = read.positions(Eigen::seqN(0, std::ssize(coarse.time_s), 2), Eigen::all);
+    EXPECT_LT((own - coarse.positions).cwiseAbs().maxCoeff(), 1e-6);
+    double squares = 0;
+    for (std::size_t i = 0; i < read.size(); ++i)
+        squares += (read.at(i) - fine.at(2 * i)).squaredNorm() / kCoordinates;
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(read.size())), 0.2);  // mm rms
 }
 
 TEST_F(RecordedTakesTest, TakesHoldTheSamePointsInOneScaleAndPlace) {
