@@ -129,7 +129,19 @@ class LipTracker::Tracking {
     }
 
     TrackedLips next(const Picture& picture, const std::optional<FaceInPicture>& face) {
-        if (!follower_ && !find_again(picture, face ? face : finder_.find(picture))) return {};
+        if (follower_) {
+            TrackedLips lips = followed(picture);
+            if (lips.found) return lips;
+        }
+        if (!find_again(picture, face ? face : finder_.find(picture))) return {};
+        return followed(picture);
+    }
+
+    const Vector3d& scale() const { return scale_; }
+    double mouth_px() const { return mouth_px_; }
+
+  private:
+    TrackedLips followed(const Picture& picture) {
         const Followed followed = follower_->follow(picture, head_);
         if (followed.likeness < kLeastLikeness) return lose();
         head_ = followed.move;
@@ -142,10 +154,6 @@ class LipTracker::Tracking {
         return lips;
     }
 
-    const Vector3d& scale() const { return scale_; }
-    double mouth_px() const { return mouth_px_; }
-
-  private:
     // Depth and scales from what was found.
     void place(const std::vector<Fitting>& fittings) {
         std::vector<double> distances, widths, heights;

@@ -1,5 +1,5 @@
 // Where the mouth is below a pair of eyes: the red of the lips beside the skin around them, pseudo hue
-// R / (R + G) [HulbertPoggio98], cut in two by Otsu's threshold. Only a first place for the model, which is
+// R / (R + G) [HurlbertPoggio88], cut in two by Otsu's threshold. Only a first place for the model, which is
 // fitted afterwards.
 #pragma once
 
