@@ -57,6 +57,13 @@ std::optional<double> JsonFields::number(const std::string& name) {
     return value->get<double>();
 }
 
+std::optional<bool> JsonFields::flag(const std::string& name) {
+    const auto* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_boolean()) refuse(name, "true or false");
+    return value->get<bool>();
+}
+
 std::optional<std::uint64_t> JsonFields::whole_number(const std::string& name) {
     const auto* value = find(name);
     if (value == nullptr) return std::nullopt;

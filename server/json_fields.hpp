@@ -27,6 +27,7 @@ class JsonFields {
 
     std::optional<std::string> text(const std::string& name);
     std::optional<double> number(const std::string& name);
+    std::optional<bool> flag(const std::string& name);
     std::optional<std::uint64_t> whole_number(const std::string& name);
     std::optional<nlohmann::json> object(const std::string& name);
 

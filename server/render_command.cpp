@@ -7,6 +7,7 @@
 #include "server/film_output.hpp"
 #include "server/motion_options.hpp"
 #include "server/requests.hpp"
+#include "server/view_options.hpp"
 #include "synth/film/media_reader.hpp"
 #include "synth/render/live.hpp"
 
@@ -15,8 +16,9 @@ namespace {
 
 struct RenderOptions {
     MotionOptions motion;
+    ViewOptions view;
     RenderRequest request;
-    std::string audio, talker = kDefaultTalker, size = "512x512", background, output = "motion.mp4", drawn;
+    std::string audio, talker = kDefaultTalker, output = "motion.mp4", drawn;
     double fps = 30, from = NAN, to = NAN;
     bool quiet = false;
 };
@@ -93,10 +95,8 @@ RenderReport from_stdin(const RenderOptions& options, const Talker& talker) {
 
 int run_render(RenderOptions& options) {
     RenderRequest& request = options.request;
-    set_size(request.view, options.size);
-    if (!options.background.empty()) request.view.background = parse_background(options.background);
+    request.view = options.view.parsed();
     request.fps = frame_rate(options.fps);
-    check(request.view);
     const auto talker = talker_at(options.talker);
     const RenderReport report =
         options.motion.file == "-" ? from_stdin(options, *talker) : from_file(options, *talker);
@@ -114,7 +114,6 @@ Command add_render(CLI::App& program) {
                                            "A recorded motion in, a video of the talker moving so out; - "
                                            "draws rows of CSV from stdin as they come.");
     add_motion_options(*app, options->motion);
-    View& view = options->request.view;
     app->add_option("--audio", options->audio,
                     "a sound or video file that began when the motion's clock was 0; no sound when absent");
     app->add_option("-o,--output", options->output,
@@ -130,14 +129,8 @@ Command add_render(CLI::App& program) {
     app->add_option("--talker", options->talker,
                     "a built-in talker's name, or a talker's folder (with a / in it)")
         ->capture_default_str();
-    app->add_option("--size", options->size, "WIDTHxHEIGHT in pixels, 16 to 4096 each; even for mp4")
-        ->capture_default_str();
     app->add_option("--fps", options->fps, "frames per second, 15 to 120")->capture_default_str();
-    app->add_option("--yaw", view.yaw, "degrees towards the talker's left, -180 to 180");
-    app->add_option("--tilt", view.tilt, "degrees, the chin lifted, -180 to 180");
-    app->add_option("--roll", view.roll, "degrees counter-clockwise in the picture, -180 to 180");
-    app->add_option("--background", options->background,
-                    "#rrggbb, black, white, grey, green or blue; a soft grey when absent");
+    add_view_options(*app, options->view);
     app->add_option("--seed", options->request.seed,
                     "of blinks that the motion does not hold, a whole number from 0")
         ->check(CLI::NonNegativeNumber)

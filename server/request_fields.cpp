@@ -55,6 +55,10 @@ json sizes() {
             {"default", words(standard.width, "x", standard.height)}};
 }
 
+json flag(const std::string& description, bool standard) {
+    return {{"type", "boolean"}, {"description", description}, {"default", standard}};
+}
+
 json angle(const char* what, double standard) {
     return number(words(what, ", ", -View::kWidestTurn, " to ", View::kWidestTurn), -View::kWidestTurn,
                   View::kWidestTurn, standard);
@@ -89,9 +93,29 @@ json view_fields() {
     fields["yaw"] = angle("degrees towards the talker's left", standard.yaw);
     fields["tilt"] = angle("degrees, the chin lifted", standard.tilt);
     fields["roll"] = angle("degrees counter-clockwise in the picture", standard.roll);
+    fields["show"] =
+        one_of("what is seen (points: the markers alone; wireframe: the mesh as lines)",
+               std::vector<std::string>(kShownNames.begin(), kShownNames.end()), kShownNames.front());
+    fields["field_of_view"] =
+        number(words("degrees over the picture's shorter side when the whole head is shown, ",
+                     View::kNarrowestField, " to ", View::kWidestField),
+               View::kNarrowestField, View::kWidestField, standard.field_of_view);
+    fields["orthographic"] =
+        flag("seen along parallel lines; the field of view is without effect", standard.orthographic);
+    fields["px_per_mm"] = {
+        {"type", "number"},
+        {"description", words("pixels per mm, ", View::kSmallestScale, " to ", View::kLargestScale,
+                              ": everywhere if orthographic, else at the depth of the picture's middle; "
+                              "absent: what is shown fills the picture")},
+        {"minimum", View::kSmallestScale},
+        {"maximum", View::kLargestScale}};
+    fields["texture"] = flag("false: each material in one colour", standard.texture);
+    fields["eyes_occluded"] = flag("a black bar over the eyes", standard.eyes_occluded);
     fields["background"] = {
         {"type", "string"},
-        {"description", "#rrggbb, black, white, grey, green or blue; a soft grey when absent"},
+        {"description",
+         "#rrggbb, black, white, grey, green or blue; when absent a soft grey, black behind "
+         "points, white behind a wireframe"},
         {"pattern", "^(#[0-9a-fA-F]{6}|black|white|grey|green|blue)$"}};
     return fields;
 }

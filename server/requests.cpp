@@ -42,6 +42,12 @@ void read_view(JsonFields& fields, View& view) {
     take(angles.number("yaw"), view.yaw);
     take(angles.number("tilt"), view.tilt);
     take(angles.number("roll"), view.roll);
+    take(angles.number("field_of_view"), view.field_of_view);
+    if (const auto shown = angles.text("show")) view.shown = shown_of(*shown);
+    take(angles.flag("orthographic"), view.orthographic);
+    if (const auto scale = angles.number("px_per_mm")) view.px_per_mm = scale;
+    take(angles.flag("texture"), view.texture);
+    take(angles.flag("eyes_occluded"), view.eyes_occluded);
     if (const auto background = angles.text("background")) view.background = parse_background(*background);
     angles.refuse_unknown();
 }

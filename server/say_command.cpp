@@ -13,6 +13,7 @@
 #include "server/recorded_speech.hpp"
 #include "server/request_fields.hpp"
 #include "server/requests.hpp"
+#include "server/view_options.hpp"
 #include "synth/say/report_json.hpp"
 #include "synth/speech/text_grid.hpp"
 
@@ -21,7 +22,8 @@ namespace {
 
 struct SayOptions {
     VideoRequest request;
-    std::string size = "512x512", background, output = "talk.mp4", renderer = kDefaultRenderer;
+    ViewOptions view;
+    std::string output = "talk.mp4", renderer = kDefaultRenderer;
     double fps = 30;
     std::string labels, motion, commanded, json;
     RecordedSpeech recorded;
@@ -120,12 +122,10 @@ void listen(SayOptions& options) {
 
 void complete(SayOptions& options) {
     SayRequest& say_request = options.request.say;
-    set_size(say_request.view, options.size);
-    if (!options.background.empty()) say_request.view.background = parse_background(options.background);
+    say_request.view = options.view.parsed();
     say_request.fps = frame_rate(options.fps);
     say_request.renderer = renderer_of(options.renderer);
     if (options.output != "-") options.request.format = film_format_of(options.output);
-    check(say_request.view);
     check_places(options);
     if (say_request.speech.text == "-") {
         say_request.speech.text.assign(std::istreambuf_iterator<char>(std::cin), {});
@@ -156,7 +156,6 @@ Command add_say(CLI::App& program) {
     auto options = std::make_shared<SayOptions>();
     CLI::App* app = program.add_subcommand("say", "Text in, a talking-face video out.");
     SpeechRequest& speech = options->request.say.speech;
-    View& view = options->request.say.view;
     app->add_option("text", speech.text, description_of("text") + "; - reads it from stdin");
     app->add_option("--phones", speech.phones, description_of("phones"));
     add_recorded_speech(*app, options->recorded);
@@ -169,12 +168,8 @@ Command add_say(CLI::App& program) {
     app->add_option("--talker", options->request.talker,
                     "a built-in talker's name, or a talker's folder (with a / in it)")
         ->capture_default_str();
-    app->add_option("--size", options->size, description_of("size"))->capture_default_str();
     app->add_option("--fps", options->fps, description_of("fps"))->capture_default_str();
-    app->add_option("--yaw", view.yaw, description_of("yaw"))->capture_default_str();
-    app->add_option("--tilt", view.tilt, description_of("tilt"))->capture_default_str();
-    app->add_option("--roll", view.roll, description_of("roll"))->capture_default_str();
-    app->add_option("--background", options->background, description_of("background"));
+    add_view_options(*app, options->view);
     app->add_option("--renderer", options->renderer, kRendererHelp)->capture_default_str();
     app->add_option("--head-motion", options->request.say.head_motion,
                     "degrees that the head turns by itself, 0 to 10; the eyes stay on the viewer")

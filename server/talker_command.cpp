@@ -5,7 +5,11 @@
 #include <iostream>
 #include <vector>
 
+#include "base/whole_file.hpp"
+#include "facemodel/png.hpp"
 #include "server/commands.hpp"
+#include "server/film_output.hpp"
+#include "synth/say/sheet.hpp"
 #include "synth/talker/talker_shelf.hpp"
 
 namespace viaface {
@@ -17,6 +21,11 @@ int list_talkers() {
         const auto description = shelf.description(name);
         std::cout << name << "\t" << description.value("summary", "") << "\n";
     }
+    return 0;
+}
+
+int write_sheet(const std::string& talker, const std::string& file) {
+    write_whole(file, encode_png(contact_sheet(*talker_at(talker))));
     return 0;
 }
 
@@ -36,8 +45,9 @@ int run_training(std::vector<std::string> arguments) {
 
 Command add_talker(CLI::App& program) {
     struct Options {
+        std::string sheet_of, sheet;
         std::string scans = "../shared/data/ict_facekit", output;
-        CLI::App *list = nullptr, *make = nullptr;
+        CLI::App *list = nullptr, *make = nullptr, *sheet_command = nullptr;
     };
     auto options = std::make_shared<Options>();
     CLI::App* app = program.add_subcommand("talker", "Lists the talkers, or makes one.");
@@ -49,8 +59,16 @@ Command add_talker(CLI::App& program) {
         ->capture_default_str();
     options->make->add_option("-o,--output", options->output,
                               "the talker's folder (default: the built-in momo)");
+    options->sheet_command = app->add_subcommand(
+        "sheet", "Writes a contact sheet: what the talker looks like at rest, in speech and from the side.");
+    options->sheet_command
+        ->add_option("talker", options->sheet_of,
+                     "a built-in talker's name, or a talker's folder (with a / in it)")
+        ->required();
+    options->sheet_command->add_option("-o,--output", options->sheet, "x.png")->required();
     return [options] {
         if (options->list->parsed()) return list_talkers();
+        if (options->sheet_command->parsed()) return write_sheet(options->sheet_of, options->sheet);
         const std::string output =
             options->output.empty() ? (talkers_folder() / "momo").string() : options->output;
         return run_training({"make", options->scans, output});

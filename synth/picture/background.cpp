@@ -31,11 +31,14 @@ Rgb glow(const View& view, int x, int y) {
 }  // namespace
 
 Texture make_background(const View& view) {
+    std::optional<Rgb> one = view.background;
+    if (!one && view.shown == Shown::kPoints) one = Rgb{0, 0, 0};
+    if (!one && view.shown == Shown::kWireframe) one = Rgb{255, 255, 255};
     Texture texture{view.width, view.height, 4, {}};
     texture.pixels.reserve(std::size_t(4) * view.width * view.height);
     for (int y = 0; y < view.height; ++y) {
         for (int x = 0; x < view.width; ++x) {
-            const Rgb colour = view.background ? *view.background : glow(view, x, y);
+            const Rgb colour = one ? *one : glow(view, x, y);
             texture.pixels.insert(texture.pixels.end(), {colour[0], colour[1], colour[2], 255});
         }
     }

@@ -20,6 +20,7 @@ class Painter {
                        std::uint8_t* rgba) = 0;
 };
 
+std::unique_ptr<Painter> make_wire_painter(const Face& face, const View& view);
 std::unique_ptr<Painter> make_gl_painter(const Face& face, const View& view);
 std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, const Drawing& drawing);
 

@@ -6,6 +6,7 @@
 #include "synth/picture/changed_bands.hpp"
 #include "synth/picture/layers.hpp"
 #include "synth/picture/painter.hpp"
+#include "synth/picture/shown_face.hpp"
 
 namespace viaface {
 namespace {
@@ -22,6 +23,21 @@ void check(const Face& face) {
     if (!fits) throw std::invalid_argument("a face whose parts, uvs or welds do not fit its nodes");
 }
 
+std::unique_ptr<Painter> make_painter(const Face& face, const View& view, const Drawing& drawing) {
+    if (view.shown == Shown::kWireframe) return make_wire_painter(face, view);
+    if (drawing.renderer == Renderer::kOsmesa) return make_gl_painter(face, view);
+    return make_raster_painter(face, view, drawing);
+}
+
+std::vector<int> eye_nodes(const Face& face) {
+    std::vector<int> nodes;
+    for (const FacePart& part : face.parts) {
+        if (part.material != Material::kEye) continue;
+        for (int i = 0; i < part.nodes; ++i) nodes.push_back(part.first_node + i);
+    }
+    return nodes;
+}
+
 std::vector<int> inner_contour(const Face& face) {
     std::vector<int> nodes;
     if (triangles_of(face, Material::kLips).empty()) return nodes;
@@ -35,12 +51,12 @@ class Portrait::Impl {
   public:
     Impl(const Face& face, const View& view, const Drawing& drawing)
         : view_(view),
-          painter_(drawing.renderer == Renderer::kOsmesa ? make_gl_painter(face, view)
-                                                         : make_raster_painter(face, view, drawing)),
+          painter_(make_painter(face, view, drawing)),
           posed_(face, view),
           bands_(view.width, view.height),
           layers_(layers_of(face)),
           inner_contour_(inner_contour(face)),
+          eyes_(view.eyes_occluded && seen_from_front(view) ? eye_nodes(face) : std::vector<int>()),
           rgba_(std::size_t(4) * view.width * view.height) {}
 
     FrameView draw(const Nodes& posed, Redraw redraw) {
@@ -51,23 +67,41 @@ class Portrait::Impl {
         if (!rects.empty()) painter_->paint(posed_, rects, mouth, rgba_.data());
         kept_opening_ = mouth;
         drawn_ = true;
+        const std::uint8_t* shown = eyes_.empty() ? rgba_.data() : occluded();
         posed_.keep();
-        return bottom_up_view(view_.width, view_.height, rgba_.data());
+        return bottom_up_view(view_.width, view_.height, shown);
     }
 
   private:
     Rect whole() const { return {0, 0, view_.width, view_.height}; }
 
-    // The box of the inner contour in the picture: nothing inside the mouth is drawn outside it.
-    Rect opening() const {
-        if (inner_contour_.empty()) return whole();
-        Eigen::Vector2f low = posed_.pixel(inner_contour_.front()), high = low;
-        for (const int node : inner_contour_) {
+    static bool seen_from_front(const View& view) { return camera_of(view).world_from_head(2, 2) > 0; }
+
+    // The box of nodes in the picture, `margin` of its height larger on each side.
+    Rect box_of(const std::vector<int>& nodes, float margin = 0) const {
+        Eigen::Vector2f low = posed_.pixel(nodes.front()), high = low;
+        for (const int node : nodes) {
             low = low.cwiseMin(posed_.pixel(node));
             high = high.cwiseMax(posed_.pixel(node));
         }
-        const Eigen::Vector2i from = low.cast<int>().array() - 1, to = high.cast<int>().array() + 2;
+        const float more = margin * (high.y() - low.y());
+        const Eigen::Vector2i from = (low.array() - more).cast<int>() - 1,
+                              to = (high.array() + more).cast<int>() + 2;
         return common(whole(), {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()});
+    }
+
+    // Nothing inside the mouth is drawn outside it.
+    Rect opening() const { return inner_contour_.empty() ? whole() : box_of(inner_contour_); }
+
+    // The picture with a black bar over the eyes.
+    const std::uint8_t* occluded() {
+        occluded_ = rgba_;
+        const Rect bar = box_of(eyes_, kBarMargin);
+        for (int y = bar.bottom; y < bar.bottom + bar.height; ++y) {
+            for (int x = bar.left; x < bar.left + bar.width; ++x)
+                std::fill_n(&occluded_[4 * (std::size_t(y) * view_.width + x)], 3, std::uint8_t{0});
+        }
+        return occluded_.data();
     }
 
     std::vector<Rect> changed(const Rect& opening) {
@@ -90,12 +124,16 @@ class Portrait::Impl {
         return bands_.take();
     }
 
+    static constexpr float kBarMargin = 0.25f;
+
     View view_;
     std::unique_ptr<Painter> painter_;
     PosedVertices posed_;
     ChangedBands bands_;
     std::vector<Layer> layers_;
     std::vector<int> inner_contour_;  // nodes; none without lips
+    std::vector<int> eyes_;           // nodes under the bar; none without one
+    std::vector<std::uint8_t> occluded_;
     Rect kept_opening_;
     std::vector<std::uint8_t> rgba_;
     bool drawn_ = false;
@@ -104,7 +142,8 @@ class Portrait::Impl {
 Portrait::Portrait(const Face& face, const View& view, const Drawing& drawing) {
     check(view);
     check(face);
-    impl_ = std::make_unique<Impl>(face, view, drawing);
+    impl_ = shows_all(view) ? std::make_unique<Impl>(face, view, drawing)
+                            : std::make_unique<Impl>(shown_face(face, view), view, drawing);
 }
 Portrait::~Portrait() = default;
 Portrait::Portrait(Portrait&&) noexcept = default;

@@ -93,6 +93,7 @@ class RasterPainter : public Painter {
         : width_(view.width),
           height_(view.height),
           camera_(camera_of(view)),
+          far_(static_cast<float>(1 / camera_.place.z())),
           facets_(facets_of(face)),
           lash_(face.rest.rows(), false),
           places_(face.rest.rows()),
@@ -160,6 +161,10 @@ class RasterPainter : public Painter {
         const auto share = static_cast<float>(pixel_size(view) / camera_.place.norm());
         scene_.fold = kFold * share;
         scene_.step = kStep * share;
+        if (camera_.orthographic) {
+            scene_.to_camera[0][2] = 1;
+            return;
+        }
         // A pixel's ray ends where clip x and y are its own and w = 1.
         const Eigen::Matrix3d clip_from_way = (Eigen::Matrix3d() << camera_.clip_from_world.block<2, 3>(0, 0),
                                                camera_.clip_from_world.block<1, 3>(3, 0))
@@ -185,7 +190,7 @@ class RasterPainter : public Painter {
             Vector3f world = turn * Vector3f(v.place) + shift;
             if (lash_[i]) world += kLashesBefore * (eye - world).normalized();
             const Eigen::Vector4f clip = clip_from_world * world.homogeneous();
-            places_[i] = place_of(clip);
+            places_[i] = place_of(clip, world.z());
             const Vector3f normal(v.normal), tangent = tangents_.row(i).head<3>().transpose();
             const Vector3f along = (tangent - normal * normal.dot(tangent)).normalized();
             Vector3f::Map(nodes_[i].normal) = turn * normal;
@@ -195,9 +200,10 @@ class RasterPainter : public Painter {
         }
     }
 
-    raster::Place place_of(const Eigen::Vector4f& clip) const {
-        const float near = 1 / clip.w();
-        const float x = clip.x() * near * 0.5f * width_, y = clip.y() * near * 0.5f * height_;
+    raster::Place place_of(const Eigen::Vector4f& clip, float height) const {
+        const float shrink = 1 / clip.w();
+        const float near = camera_.orthographic ? (1 + height * far_) * far_ : shrink;
+        const float x = clip.x() * shrink * 0.5f * width_, y = clip.y() * shrink * 0.5f * height_;
         const bool can = clip.w() > 0 && std::abs(clip.z()) <= clip.w() && std::abs(x) < raster::kGuard &&
                          std::abs(y) < raster::kGuard;
         if (!can) return {0, 0, 0};
@@ -251,6 +257,7 @@ class RasterPainter : public Painter {
 
     int width_, height_;
     Camera camera_;
+    float far_;  // 1 / distance of an orthographic camera, whose heights make up what is in front
     std::vector<raster::Facet> facets_;
     std::vector<bool> lash_;  // of each node
     Tangents tangents_;

@@ -19,7 +19,22 @@ const Vector3d kPivot(0, 35, -106);              // mm: between the ears
 const Vector3d kTarget(0, 41, -106);             // mm: the middle of a square picture
 constexpr double kShown = 282;                   // mm over the shorter side, at the target
 constexpr double kCameraBelow = 0.0116;          // of its distance, below the target
+constexpr double kFarAway = 1e4;                 // mm: where an orthographic camera stands
 constexpr double kNearer = 300, kFarther = 300;  // mm around the target that can be seen
+
+// What is in the middle of the picture, head frame, and how many mm there are over the shorter side.
+struct Framing {
+    Vector3d middle;
+    double shown;
+    bool turns;  // the camera follows it when the head turns
+};
+Framing framing_of(const View& view) {
+    Framing framing{kTarget, kShown, false};
+    if (view.shown == Shown::kLowerFace) framing = {{0, -14, -25}, 160, true};
+    if (view.shown == Shown::kLips) framing = {{0, -20, -20}, 120, true};
+    if (view.px_per_mm) framing.shown = std::min(view.width, view.height) / *view.px_per_mm;
+    return framing;
+}
 
 struct NamedColour {
     std::string_view name;
@@ -33,7 +48,7 @@ constexpr NamedColour kColours[] = {{"black", {0, 0, 0}},
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-void check_angle(const char* field, double value, double low, double high, const char* allowed) {
+void check_range(const char* field, double value, double low, double high, const char* allowed) {
     if (!(value >= low && value <= high)) throw InputError(field, std::to_string(value), allowed);
 }
 
@@ -44,6 +59,15 @@ Matrix4d perspective(double half_width, double half_height, double near, double 
     m(2, 2) = -(far + near) / (far - near);
     m(2, 3) = -2 * far * near / (far - near);
     m(3, 2) = -1;
+    return m;
+}
+
+Matrix4d parallel(double half_width, double half_height, double near, double far) {
+    Matrix4d m = Matrix4d::Identity();
+    m(0, 0) = 1 / half_width;
+    m(1, 1) = 1 / half_height;
+    m(2, 2) = -2 / (far - near);
+    m(2, 3) = -(far + near) / (far - near);
     return m;
 }
 
@@ -77,11 +101,23 @@ void check(const View& view) {
                              "16x16 to 4096x4096");
         }
     }
-    check_angle("yaw", view.yaw, -View::kWidestTurn, View::kWidestTurn, "-180 to 180 degrees");
-    check_angle("tilt", view.tilt, -View::kWidestTurn, View::kWidestTurn, "-180 to 180 degrees");
-    check_angle("roll", view.roll, -View::kWidestTurn, View::kWidestTurn, "-180 to 180 degrees");
-    check_angle("field_of_view", view.field_of_view, View::kNarrowestField, View::kWidestField,
+    check_range("yaw", view.yaw, -View::kWidestTurn, View::kWidestTurn, "-180 to 180 degrees");
+    check_range("tilt", view.tilt, -View::kWidestTurn, View::kWidestTurn, "-180 to 180 degrees");
+    check_range("roll", view.roll, -View::kWidestTurn, View::kWidestTurn, "-180 to 180 degrees");
+    check_range("field_of_view", view.field_of_view, View::kNarrowestField, View::kWidestField,
                 "4 to 60 degrees");
+    if (view.px_per_mm)
+        check_range("px_per_mm", *view.px_per_mm, View::kSmallestScale, View::kLargestScale,
+                    "0.1 to 50 pixels per mm");
+}
+
+Shown shown_of(std::string_view name) {
+    std::string allowed;
+    for (std::size_t i = 0; i < kShownNames.size(); ++i) {
+        if (name == kShownNames[i]) return static_cast<Shown>(i);
+        allowed += (i == 0 ? "" : ", ") + std::string(kShownNames[i]);
+    }
+    throw InputError("show", std::string(name), allowed);
 }
 
 Rgb parse_background(std::string_view text) {
@@ -100,21 +136,26 @@ Rgb parse_background(std::string_view text) {
 
 Camera camera_of(const View& view) {
     check(view);
+    const Framing framing = framing_of(view);
+    const Matrix4d world_from_head = turn_of(view);
     const double slope = std::tan(radians(view.field_of_view / 2));
-    const double distance = kShown / 2 / slope;
+    const double distance = view.orthographic ? kFarAway : kShown / 2 / slope;
     const double shorter = std::min(view.width, view.height);
+    Vector3d target = framing.middle;
+    if (framing.turns) target = (world_from_head * target.homogeneous()).head<3>();
     // A tall picture keeps the shoulders at its lower edge and has its room above the head.
-    const double lift = kShown / 2 * (view.height / shorter - 1);
-    const Vector3d target = kTarget + Vector3d(0, lift, 0);
-    const Vector3d place = target + Vector3d(0, -kCameraBelow * distance, distance);
-    const double near = std::max(distance - kNearer, distance / 20);
-    return {
-        turn_of(view),
-        perspective(slope * view.width / shorter, slope * view.height / shorter, near, distance + kFarther) *
-            look_at(place, target),
-        place};
+    if (framing.shown == kShown) target.y() += kShown / 2 * (view.height / shorter - 1);
+    const double below = view.orthographic ? 0 : kCameraBelow;
+    const Vector3d place = target + Vector3d(0, -below * distance, distance);
+    const double near = std::max(distance - kNearer, distance / 20), far = distance + kFarther;
+    const double half = view.orthographic ? framing.shown / 2 : slope * (framing.shown / kShown);
+    const auto project = view.orthographic ? parallel : perspective;
+    return {world_from_head,
+            project(half * view.width / shorter, half * view.height / shorter, near, far) *
+                look_at(place, target),
+            place, view.orthographic};
 }
 
-double pixel_size(const View& view) { return kShown / std::min(view.width, view.height); }
+double pixel_size(const View& view) { return framing_of(view).shown / std::min(view.width, view.height); }
 
 }  // namespace viaface

@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "base/bytes.hpp"
 #include "synth/film/film_writer.hpp"
+#include "synth/picture/point_lights.hpp"
 #include "synth/picture/portrait.hpp"
 #include "synth/pose/head_sway.hpp"
 #include "synth/talker/talker.hpp"
@@ -24,7 +26,8 @@ struct DrawnFrame {
 
 class Animation {
   public:
-    // Draws into `film`, at its rate. `onlooker` may be empty. InputError as Portrait throws it.
+    // Draws into `film`, at its rate; the points view has the markers and the lip points. `onlooker` may be
+    // empty. InputError as Portrait throws it.
     Animation(const Talker& talker, const View& view, FrameRate fps, FilmWriter& film,
               std::function<void(const DrawnFrame&)> onlooker, const Drawing& drawing = {});
 
@@ -46,13 +49,15 @@ class Animation {
 
   private:
     void add(const Configuration& commanded, const Nodes& posed, const Nodes& shown);
+    FrameView picture_of(const Nodes& shown);
     void compare(const DrawnFrame& frame);
 
     const Talker& talker_;
     FilmWriter& film_;
     FrameRate fps_;
     std::function<void(const DrawnFrame&)> onlooker_;
-    Portrait portrait_;
+    std::optional<PointLights> point_lights_;  // one of the two
+    std::optional<Portrait> portrait_;
     Neck neck_;
     std::int64_t frames_ = 0, compared_ = 0;
     double squares_ = 0, farthest_ = 0;

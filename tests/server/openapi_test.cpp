@@ -171,7 +171,7 @@ TEST(OpenApi, NumbersAreAllowedUpToTheirLimits) {
             probe.refuses(true);
         }
     }
-    EXPECT_EQ(limits, 2 * (2 + 2 + 5));  // of rate and pitch, twice; of fps, three angles and seed
+    EXPECT_EQ(limits, 2 * (2 + 2 + 7));  // of rate and pitch, twice; of fps, three angles, field, scale, seed
 }
 
 TEST(OpenApi, TextsAreAllowedUpToTheirLimits) {

@@ -10,7 +10,7 @@
 #include "base/whole_file.hpp"
 #include "facemodel/png.hpp"
 #include "synth/picture/portrait.hpp"
-#include "synth/say/recital.hpp"
+#include "synth/say/sheet.hpp"
 #include "synth/talker/talker.hpp"
 
 namespace viaface {
@@ -36,25 +36,13 @@ const Talker& momo() {
     return talker;
 }
 
-Configuration points_of(const Still& still) {
-    SpeechRequest request;
-    request.phones = still.phones;
-    const Recital recital = recite(momo().codex, Script(request).utterance(0));
-    const PhoneSequence& phones = recital.utterance.phones;
-    for (std::size_t i = 0; i < phones.phones.size(); ++i) {
-        if (phone_info(phones.phones[i].phone).name != still.at) continue;
-        const double middle_s = (phones.begin_s(i) + phones.end_s(i)) / 2;
-        return recital.motion.at(phones.phones[i].phone == kPause ? 0.0 : middle_s);
-    }
-    throw std::logic_error("the still's phone is not among its phones");
-}
-
 Texture drawn(const Still& still) {
     View view;
     view.width = view.height = kSide;
     view.yaw = still.yaw;
     Portrait portrait(momo().face, view);
-    const FrameView frame = portrait.draw(momo().poser.posed(points_of(still)));
+    const FrameView frame =
+        portrait.draw(momo().poser.posed(points_in_phone(momo().codex, still.phones, still.at)));
     Texture picture{kSide, kSide, 3, {}};
     for (int row = 0; row < kSide; ++row) {
         for (int column = 0; column < kSide; ++column) {
