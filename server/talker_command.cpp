@@ -5,6 +5,7 @@
 #include <iostream>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "facemodel/png.hpp"
 #include "server/commands.hpp"
@@ -30,8 +31,8 @@ int write_sheet(const std::string& talker, const std::string& file) {
 }
 
 // Making a talker is another program: the model that performs the recitations is not linked into this one.
-int run_training(std::vector<std::string> arguments) {
-    const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "viaface_train";
+int run_beside(const char* name, std::vector<std::string> arguments) {
+    const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
     std::vector<char*> argv;
     arguments.insert(arguments.begin(), program.string());
     for (auto& argument : arguments) argv.push_back(argument.data());
@@ -54,8 +55,10 @@ Command add_talker(CLI::App& program) {
     app->require_subcommand(1);
     options->list = app->add_subcommand("list", "The built-in talkers.");
     options->make = app->add_subcommand(
-        "make", "Makes the built-in talker again from its scans and performed recitations.");
-    options->make->add_option("--scans", options->scans, "folder of the blend-shape head")
+        "make",
+        "Makes a talker: of a scan, with the built-in talker's motion, or, from a blend-shape head, the "
+        "built-in talker again with its performed recitations.");
+    options->make->add_option("folder,--scans", options->scans, "folder of scans, or of the blend-shape head")
         ->capture_default_str();
     options->make->add_option("-o,--output", options->output,
                               "the talker's folder (default: the built-in momo)");
@@ -69,9 +72,13 @@ Command add_talker(CLI::App& program) {
     return [options] {
         if (options->list->parsed()) return list_talkers();
         if (options->sheet_command->parsed()) return write_sheet(options->sheet_of, options->sheet);
-        const std::string output =
-            options->output.empty() ? (talkers_folder() / "momo").string() : options->output;
-        return run_training({"make", options->scans, output});
+        const bool blend_head = std::filesystem::exists(options->scans + "/generic_neutral_mesh.obj");
+        const std::string built_in = (talkers_folder() / "momo").string();
+        if (!blend_head && options->output.empty())
+            throw InputError("--output", "", "a folder for the talker that is made of the scan");
+        if (!blend_head) return run_beside("viaface_adapt", {options->scans, options->output, built_in});
+        return run_beside("viaface_train",
+                          {"make", options->scans, options->output.empty() ? built_in : options->output});
     };
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "facemodel/mesh.hpp"
+
 namespace viaface {
 
 struct Gaze {
@@ -22,6 +24,7 @@ struct Gaze {
 struct EyeBall {
     static constexpr double kRadius = 15.3, kIrisRadius = 6.0, kCorneaRise = 1.2;  // mm
     Eigen::Vector3d centre;                                                        // mm
+    double size = 1;                                                               // times the measures above
 
     // angle: from the way it looks, radians.
     static double radius_at(double angle) {
@@ -32,5 +35,9 @@ struct EyeBall {
 };
 
 inline EyeBall eye_ball(double side) { return {{side * 31.2, 71.0, -26.7}}; }  // +1: the talker's left
+
+// The eye that a face has, from the sphere through its nodes behind the cornea, to 0.01 mm: as near as floats
+// in a file keep it. std::invalid_argument when the nodes are no such eye.
+EyeBall eye_ball_of(const Nodes& eye);
 
 }  // namespace viaface

@@ -20,9 +20,14 @@ double amount_of(double blink, const Gaze& gaze) {
     return blink + (1 - blink) * follow;
 }
 
+EyeBall eye_of(const Face& face, double side) {
+    const FacePart& part = part_named(face, side > 0 ? "eye_left" : "eye_right");
+    return eye_ball_of(face.rest.middleRows(part.first_node, part.nodes));
+}
+
 }  // namespace
 
-Lids::Lids(const Face& face, const std::string& shape_name, double side) : ball_(eye_ball(side)) {
+Lids::Lids(const Face& face, const std::string& shape_name, double side) : ball_(eye_of(face, side)) {
     const auto shape = std::find_if(face.shapes.begin(), face.shapes.end(),
                                     [&](const NamedShape& s) { return s.name == shape_name; });
     if (shape == face.shapes.end()) throw std::invalid_argument("the face has no shape " + shape_name);
@@ -47,11 +52,12 @@ void Lids::pose(Nodes& mesh, double blink, const Gaze& gaze) const {
         auto node = mesh.row(nodes_[k]);
         const auto move = moves_.row(static_cast<Eigen::Index>(k));
         node += amount * move;
-        if (rest_radius_[k] < EyeBall::kRadius || rest_radius_[k] > kLidReach) continue;
+        if (rest_radius_[k] < ball_.size * EyeBall::kRadius || rest_radius_[k] > ball_.size * kLidReach)
+            continue;
         const Eigen::Vector3d from = node.transpose() - ball_.centre;
         const double angle = std::acos(std::clamp(from.dot(ahead) / from.norm(), -1.0, 1.0));
         const double over = move.y() < 0 ? kLidOverLid * std::max(amount, 0.0) : 0;
-        const double least = EyeBall::radius_at(angle) + kLidThickness + over;
+        const double least = ball_.size * EyeBall::radius_at(angle) + kLidThickness + over;
         if (from.norm() < least) node = (ball_.centre + from * (least / from.norm())).transpose();
     }
 }

@@ -104,8 +104,9 @@ struct Poser::Parts {
         right_lids.pose(nodes, blink.right, gaze);
         if (gaze.left == 0 && gaze.up == 0) return;
         const Eigen::Matrix3d turn = gaze.turn();
-        for (const auto& [part, side] : {std::pair{&left_eye, +1.0}, std::pair{&right_eye, -1.0}}) {
-            const Eigen::RowVector3d centre = eye_ball(side).centre.transpose();
+        for (const FacePart* part : {&left_eye, &right_eye}) {
+            const Eigen::RowVector3d centre =
+                eye_ball_of(rest.middleRows(part->first_node, part->nodes)).centre.transpose();
             auto ball = nodes.middleRows(part->first_node, part->nodes);
             ball = ((rest.middleRows(part->first_node, part->nodes).rowwise() - centre) * turn.transpose())
                        .rowwise() +

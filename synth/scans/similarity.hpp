@@ -1,0 +1,33 @@
+// The turn, scale and shift that carry one set of places onto another. [Horn87; Umeyama91]
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "facemodel/nearest_surface.hpp"
+
+namespace viaface {
+
+struct Similarity {
+    double scale = 1;
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+
+    Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return scale * (turn * p) + shift; }
+    Nodes carried(const Nodes& nodes) const {
+        return (scale * nodes * turn.transpose()).rowwise() + shift.transpose();
+    }
+    Similarity inverse() const;
+};
+
+Similarity similarity_between(const Nodes& from, const Nodes& to);  // least squares; row by row
+
+struct Alignment {
+    Similarity to_scan;  // from the places to the scan
+    double rms = 0;      // of the places that were kept, in the scan's unit
+};
+
+// Iterated closest points [BeslMcKay92] with the worst third left out each time. normals: of the places.
+Alignment aligned(const Nodes& places, const Nodes& normals, const NearestSurface& scan, Similarity start,
+                  int rounds);
+
+}  // namespace viaface

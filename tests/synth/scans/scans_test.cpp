@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "synth/pose/pose.hpp"
+#include "synth/scans/adaptation_to_scan.hpp"
+#include "synth/scans/borrowed_motion.hpp"
+#include "synth/scans/feature_pins.hpp"
+
+namespace viaface {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+const GenericHead& momo() {
+    static const GenericHead head = generic_head(fs::path(VIAFACE_SOURCE_DIR) / "talkers/momo");
+    return head;
+}
+
+// Another head: the generic one, wider, with a longer nose, turned and in metres; without colours.
+Nodes other_head() {
+    Nodes nodes = momo().face.rest;
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+        const Vector3d p = nodes.row(i);
+        nodes(i, 0) *= 1.06;
+        nodes(i, 2) += 3 * std::exp(-(p - Vector3d(0, 35, 20)).squaredNorm() / 400);
+    }
+    return nodes;
+}
+
+const Eigen::Matrix3d kTurn = Eigen::AngleAxisd(0.8, Vector3d(1, 2, 0.5).normalized()).toRotationMatrix();
+
+Vector3d in_scan(const Vector3d& head) { return kTurn * head / 1000 + Vector3d(1, 2, 3); }
+
+ScanFolder scan_of(const Nodes& nodes) {
+    ScanFolder scans;
+    PaintedSurface surface;
+    surface.mesh.nodes = nodes;
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
+        surface.mesh.nodes.row(i) = in_scan(nodes.row(i).transpose()).transpose();
+    surface.mesh.triangles = momo().surface;
+    scans.postures["neutral"] = surface;
+    scans.files["neutral"] = "head.ply";
+    for (const char* name :
+         {"nose", "eye_left_outer", "eye_right_outer", "lip_corner_left", "lip_corner_right"}) {
+        Eigen::Index nearest = 0;
+        (momo().face.rest.rowwise() - generic_landmark(momo(), name).transpose())
+            .rowwise()
+            .squaredNorm()
+            .minCoeff(&nearest);
+        scans.landmarks[name] = in_scan(nodes.row(nearest).transpose());
+    }
+    return scans;
+}
+
+TEST(AdaptedHead, LiesOnAScanOfAnotherHeadInMetres) {
+    const AdaptedHead head = adapt_head(momo(), scan_of(other_head()));
+    EXPECT_EQ(head.unit, "m");
+    EXPECT_LT(head.to_scan.p95, 0.7);
+    EXPECT_LT(head.from_surface.mean, 0.5);
+    EXPECT_EQ(head.flipped, 0);
+    EXPECT_LT(std::abs(head.smile), kSmile);
+}
+
+TEST(AdaptedHead, RefusesAUnitInWhichNoHeadIs) {
+    ScanFolder scans = scan_of(other_head());
+    scans.mm_per_unit = 1;
+    try {
+        adapt_head(momo(), scans);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.field(), "units");
+        EXPECT_EQ(error.allowed(), "m");
+    }
+}
+
+TEST(AdaptedHead, RefusesWhatHasNoFace) {
+    ScanFolder scans = scan_of(other_head());
+    scans.landmarks.clear();
+    Nodes& nodes = scans.postures["neutral"].mesh.nodes;
+    const Eigen::RowVector3d middle = nodes.colwise().mean();
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
+        nodes.row(i) = middle + 0.1 * (nodes.row(i) - middle).normalized();
+    EXPECT_THROW(adapt_head(momo(), scans), InputError);
+}
+
+TEST(BorrowedTalker, OfTheLendersOwnHeadIsTheLender) {
+    const Codex codex = make_codex({momo().training.rest, Eigen::MatrixXd::Identity(kCoordinates, 2)},
+                                   Eigen::VectorXd::Zero(2), {}, "nobody");
+    const BorrowedTalker talker = with_borrowed_motion(momo(), codex, momo().face.rest, 1);
+    EXPECT_LT((talker.motion_scale - Vector3d::Ones()).norm(), 0.02);
+    const Poser lender(momo().face, momo().training), borrower(talker.face, talker.training);
+    for (const Eigen::Index k : {0, 3, 9}) {
+        const Configuration points = momo().training.configurations.col(k);
+        EXPECT_LT((lender.posed(points) - borrower.posed(points)).rowwise().norm().maxCoeff(), 1.5) << k;
+    }
+}
+
+TEST(BorrowedTalker, OfAnotherHeadClosesItsLips) {
+    const Codex codex = make_codex({momo().training.rest, Eigen::MatrixXd::Identity(kCoordinates, 2)},
+                                   Eigen::VectorXd::Zero(2), {}, "nobody");
+    const BorrowedTalker talker = with_borrowed_motion(momo(), codex, other_head(), 0.9);
+    const Poser poser(talker.face, talker.training);
+    const Poser lender(momo().face, momo().training);
+    for (Eigen::Index k = 0; k < talker.training.configurations.cols(); ++k) {
+        const double gap = poser.drawn_gaps(poser.posed(talker.training.configurations.col(k)))[0],
+                     wanted = lender.drawn_gaps(lender.posed(momo().training.configurations.col(k)))[0];
+        EXPECT_NEAR(gap, 0.9 * wanted, 1.0) << k;
+    }
+}
+
+TEST(ScanFolder, TellsANormalMapFromSkin) {
+    Texture normals{32, 32, 3, {}}, skin{32, 32, 3, {}};
+    for (int i = 0; i < 32 * 32; ++i) {
+        const double tilt = 0.3 * std::sin(0.37 * i);
+        const Vector3d n(std::sin(tilt), 0, std::cos(tilt));
+        for (int k = 0; k < 3; ++k) normals.pixels.push_back(static_cast<std::uint8_t>(127.5 * (n[k] + 1)));
+        for (const int c : {200, 150, 130}) skin.pixels.push_back(static_cast<std::uint8_t>(c));
+    }
+    EXPECT_GT(normal_map_share(normals), 0.95);
+    EXPECT_LT(normal_map_share(skin), 0.2);
+    ScanMesh mesh;
+    mesh.uvs.resize(3, 2);
+    mesh.uvs << 0, 0, 1, 0, 0, 1;
+    mesh.uv_triangles = {{0, 1, 2}};
+    EXPECT_EQ(skin_share(mesh, skin), 1);
+    EXPECT_EQ(skin_share(mesh, normals), 0);
+}
+
+TEST(ScanFolder, MendsScrapsAndThinsWhatIsTooFine) {
+    ScanMesh mesh;
+    const int side = 700;
+    mesh.nodes.resize(side * side + 3, 3);
+    for (int i = 0; i < side * side; ++i) mesh.nodes.row(i) << i % side, i / side, 0;
+    for (int y = 0; y + 1 < side; ++y) {
+        for (int x = 0; x + 1 < side; ++x)
+            mesh.triangles.push_back({y * side + x, y * side + x + 1, (y + 1) * side + x});
+    }
+    mesh.nodes.bottomRows(3) << 900, 900, 0, 905, 900, 0, 900, 905, 0;
+    mesh.triangles.push_back({side * side, side * side + 1, side * side + 2});
+    std::vector<std::string> remarks;
+    const ScanMesh whole = mended(mesh, remarks);
+    EXPECT_LT(whole.nodes.rows(), 400'000);
+    EXPECT_EQ(pieces_of(whole).size(), 1u);
+    EXPECT_EQ(remarks.size(), 2u);
+}
+
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("viaface_scans_" + std::to_string(::getpid()));
+    Folder() { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+    void write(const char* name, const std::string& text) const { std::ofstream(path / name) << text; }
+};
+
+std::string error_of(const Folder& folder) {
+    try {
+        read_scan_folder(folder.path);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(ScanFolder, NamesFileLineAndValueOfWhatIsWrong) {
+    const Folder folder;
+    EXPECT_NE(error_of(folder).find("a folder with a scan"), std::string::npos);
+    folder.write("head.obj", "v 0 0 0\nv 1 nan 0\n");
+    EXPECT_NE(error_of(folder).find("head.obj: line 2: nan"), std::string::npos) << error_of(folder);
+    folder.write("head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(error_of(folder), "");
+    folder.write("scans.json", R"({"units": "furlong"})");
+    EXPECT_NE(error_of(folder).find("furlong"), std::string::npos);
+    folder.write("scans.json", R"({"postures": {"neutral": "../head.obj"}})");
+    EXPECT_NE(error_of(folder).find("within the folder"), std::string::npos);
+    folder.write("scans.json", R"({"postures": {"a": "head.obj"}})");
+    EXPECT_NE(error_of(folder).find("neutral"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace viaface
