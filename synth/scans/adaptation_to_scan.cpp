@@ -218,6 +218,14 @@ void relax_turned(const GenericHead& generic, Nodes& nodes) {
         for (const Triangle& t : turned) {
             for (const int node : t) moves[static_cast<std::size_t>(node)] = true;
         }
+        if (round >= kRounds / 4) {  // and those about them
+            const std::vector<bool> alone = moves;
+            for (const Triangle& t : generic.surface) {
+                if (std::ranges::none_of(t, [&](int node) { return alone[static_cast<std::size_t>(node)]; }))
+                    continue;
+                for (const int node : t) moves[static_cast<std::size_t>(node)] = true;
+            }
+        }
         Nodes sum = Nodes::Zero(nodes.rows(), 3);
         Eigen::VectorXd count = Eigen::VectorXd::Zero(nodes.rows());
         for (const Triangle& t : generic.surface) {
