@@ -116,6 +116,7 @@ class Bench {
             for (const Nodes& nodes : posed) portrait->draw(nodes);
         });
         print("draw, what moved", changed, times_.size());
+        print_figure("drawn whole / drawn where it moved", all / changed, "times");
         const auto held = std::min(posed.size(), static_cast<std::size_t>(kHeldSeconds * fps()));
         const std::size_t first = (posed.size() - held) / 2;
         for (std::size_t n = first; n < first + held; ++n) keep(portrait->draw(posed[n]));

@@ -60,7 +60,7 @@ class GlPainter : public Painter {
         check_gl("uploading a face");
     }
 
-    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening,
+    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening, bool,
                std::uint8_t* rgba) override {
         context_->make_current();
         indices_.clear();

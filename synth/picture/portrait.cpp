@@ -64,7 +64,7 @@ class Portrait::Impl {
         const Rect mouth = opening();
         const bool all = redraw == Redraw::kAll || !drawn_;
         const std::vector<Rect> rects = all ? std::vector{whole()} : changed(mouth);
-        if (!rects.empty()) painter_->paint(posed_, rects, mouth, rgba_.data());
+        if (!rects.empty()) painter_->paint(posed_, rects, mouth, !all, rgba_.data());
         kept_opening_ = mouth;
         drawn_ = true;
         const std::uint8_t* shown = eyes_.empty() ? rgba_.data() : occluded();

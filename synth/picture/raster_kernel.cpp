@@ -42,6 +42,9 @@ class StripeDrawing {
     VIAFACE_INLINE std::uint32_t& rgba(std::int32_t x, std::int32_t y) const {
         return scene_.rgba[std::int64_t(y) * scene_.width + x];
     }
+    VIAFACE_INLINE std::uint32_t& alone(std::int32_t x, std::int32_t y) const {
+        return scene_.alone[std::int64_t(y) * scene_.width + x];
+    }
     VIAFACE_INLINE std::uint32_t background(std::int32_t x, std::int32_t y) const {
         return scene_.background[std::int64_t(y) * scene_.width + x];
     }
@@ -51,8 +54,6 @@ class StripeDrawing {
         for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
             __builtin_memset(scratch_.nearness + sample(bounds_.left, y), 0, (width + 1) * kSamples * 4);
             __builtin_memset(scratch_.seen + sample(bounds_.left, y), 0, (width + 1) * kSamples * 4);
-            __builtin_memcpy(&rgba(bounds_.left, y),
-                             scene_.background + std::int64_t(y) * scene_.width + bounds_.left, width * 4);
         }
     }
 
@@ -91,9 +92,13 @@ class StripeDrawing {
             const std::int32_t* seen = scratch_.seen + sample(bounds_.left, y);
             for (std::int32_t x = bounds_.left; x < bounds_.right; ++x, seen += kSamples) {
                 if ((seen[0] ^ seen[1]) | (seen[0] ^ seen[2]) | (seen[0] ^ seen[3])) {
+                    alone(x, y) = 0;
                     resolve_mixed(x, y, seen);
                 } else if (seen[0] != 0) {
-                    push({x, y, seen[0] - 1, kSamples});
+                    resolve_alone(x, y, seen[0] - 1);
+                } else {
+                    alone(x, y) = 0;
+                    rgba(x, y) = background(x, y);
                 }
             }
         }
@@ -106,6 +111,14 @@ class StripeDrawing {
             const std::uint32_t sum = scratch_.sums[pixel(x, y)] + 2 * kOne;
             rgba(x, y) = (sum >> 2 & 255) | (sum >> 12 & 255) << 8 | (sum >> 22 & 255) << 16 | kOpaque;
         }
+    }
+
+    VIAFACE_INLINE void resolve_alone(std::int32_t x, std::int32_t y, std::int32_t surface) {
+        const std::uint32_t facet = stripe_.facets[surface];
+        std::uint32_t& before = alone(x, y);
+        if (before == facet + 1 && scene_.still[facet] != 0) return;
+        before = facet + 1;
+        push({x, y, surface, kSamples});
     }
 
     static constexpr std::uint32_t kOne = 1 | 1 << 10 | 1 << 20, kOpaque = 255u << 24;
@@ -195,6 +208,7 @@ class StripeDrawing {
     }
 
     VIAFACE_INLINE void lay_over(const Fragment& f, std::uint32_t colour, float cover) {
+        alone(f.x, f.y) = 0;
         std::uint32_t& to = rgba(f.x, f.y);
         const float share = cover * float(f.samples) * (1.0f / kSamples);
         std::uint32_t mixed = kOpaque;

@@ -99,6 +99,8 @@ class RasterPainter : public Painter {
           places_(face.rest.rows()),
           nodes_(face.rest.rows()),
           background_(std::size_t(view.width) * view.height),
+          alone_(background_.size()),
+          still_(facets_.size()),
           draw_stripe_(kernel_of(drawing.instructions)),
           pool_(std::max(1, drawing.threads)),
           rows_((view.height + raster::kStripeRows - 1) / raster::kStripeRows) {
@@ -110,9 +112,13 @@ class RasterPainter : public Painter {
         prepare_scene(view);
     }
 
-    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening,
+    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening, bool again,
                std::uint8_t* rgba) override {
         place(posed);
+        for (std::size_t i = 0; i < facets_.size(); ++i) {
+            const auto& [a, b, c] = facets_[i].node;
+            still_[i] = again && !posed.changed(a) && !posed.changed(b) && !posed.changed(c);
+        }
         raster::Scene scene = scene_;
         scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
         scene.opening = {opening.left, opening.bottom, opening.left + opening.width,
@@ -157,6 +163,8 @@ class RasterPainter : public Painter {
         scene_.facets = facets_.data();
         scene_.mipmaps = mipmaps_.data();
         scene_.background = background_.data();
+        scene_.alone = alone_.data();
+        scene_.still = still_.data();
         scene_.width = width_;
         const auto share = static_cast<float>(pixel_size(view) / camera_.place.norm());
         scene_.fold = kFold * share;
@@ -266,6 +274,8 @@ class RasterPainter : public Painter {
     std::vector<RasterTextures> textures_;
     std::vector<raster::Mipmap> mipmaps_;
     std::vector<std::uint32_t> background_;
+    std::vector<std::uint32_t> alone_;  // of each pixel, as in Scene
+    std::vector<std::uint8_t> still_;   // of each facet
     raster::Scene scene_{};
     raster::DrawStripe draw_stripe_;
     StripePool pool_;

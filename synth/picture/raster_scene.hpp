@@ -5,7 +5,8 @@
 // A stripe of rows is drawn in three steps. Triangles first settle, for four samples per pixel, what is in
 // front (a visibility buffer: C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach
 // to deferred shading", JCGT 2(2), 2013). Then each pixel is shaded once for every surface that its samples
-// see, eight fragments at a time; triangles that continue each other count as one surface, so that most
+// see, eight fragments at a time, but for pixels that hold one triangle alone, now and before, which has not
+// moved: they keep their colour; triangles that continue each other count as one surface, so that most
 // pixels are shaded once and edges are as smooth as with multisampling. Last come the lashes, blended in
 // their order. Departures: no clipping; a triangle with a corner outside kGuard or behind the camera is not
 // drawn.
@@ -96,10 +97,12 @@ struct Scene {
     const Mipmap* mipmaps;  // of each material
     const std::uint32_t* background;
     std::uint32_t* rgba;
-    std::int32_t width;     // of the picture, pixels
-    float to_camera[3][3];  // world: at pixel (0, 0), per pixel to the right, per pixel up; any length
-    float fold, step;       // surfaces part where slopes differ by `fold` or heights by `step`, both as a
-                            // share of the distance, per pixel
+    std::uint32_t* alone;       // of each pixel: 1 + the facet that is all there was when it was drawn, or 0
+    const std::uint8_t* still;  // of each facet: 1 where it is as it was when the picture was drawn
+    std::int32_t width;         // of the picture, pixels
+    float to_camera[3][3];      // world: at pixel (0, 0), per pixel to the right, per pixel up; any length
+    float fold, step;           // surfaces part where slopes differ by `fold` or heights by `step`, both as a
+                                // share of the distance, per pixel
     Bounds opening;
 };
 
