@@ -25,8 +25,8 @@ struct RangeLayout {
     double step = 0;                                // unit of r per unit of value
     double angle_from_deg = 0, angle_to_deg = 360;  // of the first column's and past the last one's left
                                                     // edge; x = r sin(angle), z = r cos(angle)
-    double bottom = 0, top = 0;  // lower edge of the lowest row, upper of the topmost
-    double largest_jump = 0.1;   // of r, between neighbours: beyond it the surface is torn
+    double bottom = 0, top = 0;                     // lower edge of the lowest row, upper of the topmost
+    double largest_jump = 0.1;                      // of r, between neighbours: beyond it the surface is torn
 };
 
 // Triangles between samples that are there. A map of the full turn is closed.

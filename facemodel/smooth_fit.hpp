@@ -37,7 +37,8 @@ Eigen::VectorXd node_areas(const Nodes& nodes, const std::vector<Triangle>& tria
 
 // `wanted` without what is rougher than the wavelength: displacements d minimise
 //     sum_i a_i |start_i + d_i - wanted_i|^2 + l^4 integral |laplacian d|^2.
-Nodes smoothed(const Nodes& start, const std::vector<Triangle>& triangles, const Nodes& wanted, double wavelength);
+Nodes smoothed(const Nodes& start, const std::vector<Triangle>& triangles, const Nodes& wanted,
+               double wavelength);
 
 struct SmoothFit {
     Nodes nodes;                // [nodes x 3], mm
