@@ -5,6 +5,7 @@
 
 #include "synth/stream/baselines.hpp"
 #include "synth/stream/bench_motions.hpp"
+#include "synth/talker/stream_models.hpp"
 #include "synth/talker/talker_shelf.hpp"
 #include "viapoints/stream_train.hpp"
 #include "viapoints/via_stream.hpp"
@@ -21,12 +22,10 @@ struct Row {
 
 double per_second(double bits, const Row& row) { return bits / row.stream.seconds; }
 
-// Statistics and basis from `training` and the talker's own speech, bits on `motion`.
-Row measured(const BenchMotion& motion, const Motion& training, const Motion& speech, double bound_mm) {
-    const StreamModel model = learn_stream_model("bench", {speech, training}, {.bounds_mm = {bound_mm}});
+Row measured(const BenchMotion& motion, const Motion& training, const StreamModel* model, double bound_mm) {
     Row row{motion.name,
             bound_mm,
-            encode_stream(motion.motion, &model, {.max_error_mm = bound_mm}).account,
+            encode_stream(motion.motion, model, {.max_error_mm = bound_mm}).account,
             {},
             {}};
     const ConfigurationBasis own = principal_basis(motion.motion.positions, 10);  // in the baselines' favour
@@ -61,11 +60,17 @@ void describe(const BenchMotion& motion) {
         100 * active_share(motion.motion), range.largest_mm, range.mean_mm);
 }
 
-void phrase_rows(const BenchMotions& motions, const Motion& speech, double bound_mm) {
-    const auto& takes = motions.phrase_takes;
+// Statistics and basis from the other take, and the basis from the talker's shapes.
+Row phrase_row(const BenchMotion& take, const BenchMotion& other, const RowMatrix& shapes, double bound_mm) {
+    const StreamModel model =
+        learn_stream_model("bench", {other.motion}, {.bounds_mm = {bound_mm}, .also = shapes});
+    return measured(take, other.motion, &model, bound_mm);
+}
+
+void phrase_rows(const std::vector<BenchMotion>& takes, const RowMatrix& shapes, double bound_mm) {
     auto second =
-        std::async(std::launch::async, [&] { return measured(takes[1], takes[0].motion, speech, bound_mm); });
-    print(measured(takes[0], takes[1].motion, speech, bound_mm));
+        std::async(std::launch::async, [&] { return phrase_row(takes[1], takes[0], shapes, bound_mm); });
+    print(phrase_row(takes[0], takes[1], shapes, bound_mm));
     print(second.get());
 }
 
@@ -75,20 +80,23 @@ int run(const std::string& name, const std::filesystem::path& data, bool full) {
     for (const std::string& skipped : motions.skipped) std::printf("skipped: %s\n", skipped.c_str());
     std::printf(
         "Payload: range-coded via points alone. Whole: every byte of the file, sync points at most 10 s "
-        "apart, the talker named. The talker's basis and statistics\n"
-        "are not counted; they come from the other take and from own speech. DCT and xz: payload alone, with "
-        "the ten leading components of the very motion,\n"
-        "searched to the same largest error; the DCT's contexts are primed on the other take.\n");
+        "apart, the talker named. Basis and statistics are the\n"
+        "talker's and not counted: for each phrase take they come from the other one and the talker's named "
+        "shapes, for the rest from stream.bin. DCT and xz: payload\n"
+        "alone, with the ten leading components of the very motion, searched to the same largest error; the "
+        "DCT's contexts are primed on the other take, else on the very motion.\n");
     for (const BenchMotion& motion : motions.phrase_takes) describe(motion);
     for (const BenchMotion& motion : motions.others) describe(motion);
     print_heading();
-    const Motion& speech = motions.others.back().motion;
+    const RowMatrix shapes = shape_positions(*talker);
+    const auto model = find_stream_model(talkers_folder() / name);
     const std::vector<double> bounds =
         full ? std::vector<double>{0.25, 0.5, 1, 2, 4} : std::vector<double>{1};
     for (const double bound : bounds) {
-        if (!motions.phrase_takes.empty()) phrase_rows(motions, speech, bound);
+        if (!motions.phrase_takes.empty()) phrase_rows(motions.phrase_takes, shapes, bound);
+        if (!full && !motions.phrase_takes.empty()) continue;
         for (const BenchMotion& motion : motions.others)
-            if (full || motions.phrase_takes.empty()) print(measured(motion, speech, speech, bound));
+            print(measured(motion, motion.motion, model ? &*model : nullptr, bound));
     }
     return 0;
 }
@@ -105,7 +113,7 @@ Command add_bench_via(CLI::App& bench) {
     CLI::App* app = bench.add_subcommand(
         "via", "Bits of via-point streams on real motion, beside DCT and xz at the same largest error.");
     app->add_option("--talker", options->talker, "a built-in talker's name")->capture_default_str();
-    app->add_option("--data", options->data, "folder with facegood/ and livelink_rom/")
+    app->add_option("--data", options->data, "folder with facegood/, livelink_rom/ and haskins_f01/")
         ->capture_default_str();
     app->add_flag("--full", options->full, "0.25 to 4 mm, and every motion");
     return [options] { return run(options->talker, options->data, options->full); };

@@ -30,19 +30,33 @@ Body read_body(const httplib::Request& request, const httplib::ContentReader& re
     return body;
 }
 
-}  // namespace
-
-nlohmann::json json_body(const httplib::Request& request, const httplib::ContentReader& reader) {
-    const Body body = read_body(request, reader);
-    const std::string type = request.get_header_value("Content-Type");
+std::string whole_body(const httplib::Request& request, const httplib::ContentReader& reader,
+                       const char* wanted) {
+    Body body = read_body(request, reader);
     if (body.too_large) {
         throw HttpError(413, "Content Too Large",
                         "a body holds at most " + std::to_string(kLargestBody) + " bytes");
     }
-    if (type.substr(0, type.find(';')) != "application/json")
-        throw HttpError(415, "Unsupported Media Type", "\"" + type + "\" is not application/json");
+    if (const std::string type = body_type(request); type != wanted)
+        throw HttpError(415, "Unsupported Media Type", "\"" + type + "\" is not " + wanted);
     if (!body.whole) throw NotJson("the body cannot be read to its end");
-    return parse_json(body.text);
+    return std::move(body.text);
+}
+
+}  // namespace
+
+std::string body_type(const httplib::Request& request) {
+    const std::string type = request.get_header_value("Content-Type");
+    return type.substr(0, type.find(';'));
+}
+
+Bytes via_body(const httplib::Request& request, const httplib::ContentReader& reader) {
+    const std::string text = whole_body(request, reader, kViaType);
+    return Bytes(text.begin(), text.end());
+}
+
+nlohmann::json json_body(const httplib::Request& request, const httplib::ContentReader& reader) {
+    return parse_json(whole_body(request, reader, "application/json"));
 }
 
 }  // namespace viaface

@@ -1,6 +1,8 @@
 #include "server/motion_options.hpp"
 
 #include "base/error.hpp"
+#include "server/commands.hpp"
+#include "synth/talker/stream_models.hpp"
 #include "viapoints/cells.hpp"
 
 namespace viaface {
@@ -51,14 +53,15 @@ MotionInputOptions MotionOptions::parsed() const {
     input.person.axes = axes;
     if (!rest.empty()) input.person.rest_s = span_of(rest);
     if (!scale.empty()) input.person.scale = scale_of(scale);
+    input.stream_models = all_stream_models(talkers_folder());
     return input;
 }
 
 void add_motion_options(CLI::App& app, MotionOptions& options) {
-    app.add_option(
-           "motion", options.file,
-           "C3D, TRC, CSV of points (NAME_x_mm, NAME_y_mm, NAME_z_mm, ...), Live Link Face CSV, or an npy "
-           "of FACEGOOD; told by its content")
+    app.add_option("motion", options.file,
+                   "C3D, TRC, CSV of points (NAME_x_mm, NAME_y_mm, NAME_z_mm, ...), Live Link Face CSV, "
+                   ".via, or an npy "
+                   "of FACEGOOD; told by its content")
         ->required();
     app.add_option("--unit", options.unit, "mm, cm or m, where the file names none");
     app.add_option("--map", options.map, "a file of lines label=point of the layout");

@@ -78,15 +78,29 @@ json videos() {
                                                {"view", {{"yaw", 30}, {"background", "#204060"}}}});
     examples["phones"] =
         example("nonsense, exactly timed, lossless", {{"phones", "ax b:90 aa1:220"}, {"format", "mkv"}});
-    return posted("A talking-face video, streamed as it is made", "Video", examples, answer);
+    json route = posted("A talking-face video, streamed as it is made", "Video", examples, answer);
+    json& body = route["post"]["requestBody"];
+    body["content"][kViaType] = json::object();
+    body["description"] =
+        body["description"].get<std::string>() +
+        "; a stream of via points is drawn as it moves, without sound, at 512x512 and 30 frames "
+        "per second as MP4";
+    route["post"]["responses"]["415"] =
+        problem_response("The body is neither application/json nor " + std::string(kViaType) + ".");
+    return route;
 }
 
 json viapoints() {
     json examples;
     examples["sentence"] = example("a sentence", {{"text", "My mother bought a very big boat."}});
+    json answer = {{"description",
+                    "mm and s, head frame: x to the talker's left, y up, z forward; to those who "
+                    "accept " +
+                        std::string(kViaType) + " as a stream, within 1 mm, with phones"},
+                   {"content", content(kJsonType, reference("ViaPoints"))}};
+    answer["content"][kViaType] = json::object();
     return posted("The via points that the face would pass, with words and phones", "Speech", examples,
-                  {{"description", "mm and s, head frame: x to the talker's left, y up, z forward"},
-                   {"content", content(kJsonType, reference("ViaPoints"))}});
+                  answer);
 }
 
 json self() {

@@ -7,9 +7,10 @@
 #include "server/film_output.hpp"
 #include "server/motion_options.hpp"
 #include "server/requests.hpp"
+#include "server/via_models.hpp"
 #include "server/view_options.hpp"
 #include "synth/film/media_reader.hpp"
-#include "synth/render/live.hpp"
+#include "synth/render/live_via.hpp"
 
 namespace viaface {
 namespace {
@@ -86,9 +87,20 @@ RenderReport from_stdin(const RenderOptions& options, const Talker& talker) {
     if (!options.audio.empty())
         throw InputError("--audio", options.audio, "none while motion is read from stdin");
     Output output(options, Sound{}.sample_rate);
-    LiveCsv rows(std::cin);
-    const RenderReport report = render_live(
-        options.request, [&] { return rows.next(); }, talker, output.film(), output.onlooker());
+    const auto drawn = [&](auto& rows) {
+        return render_live(
+            options.request, [&] { return rows.next(); }, talker, output.film(), output.onlooker());
+    };
+    RenderReport report;
+    if (begins_via(std::cin)) {
+        const StreamModelsAtHand models("");
+        LiveVia rows(std::cin, models.all());
+        report = drawn(rows);
+        std::fputs(rows.describe_damage().c_str(), stderr);
+    } else {
+        LiveCsv rows(std::cin);
+        report = drawn(rows);
+    }
     output.finish();
     return report;
 }
@@ -112,7 +124,7 @@ Command add_render(CLI::App& program) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* app = program.add_subcommand("render",
                                            "A recorded motion in, a video of the talker moving so out; - "
-                                           "draws rows of CSV from stdin as they come.");
+                                           "draws rows of CSV, or a .via stream, from stdin as they come.");
     add_motion_options(*app, options->motion);
     app->add_option("--audio", options->audio,
                     "a sound or video file that began when the motion's clock was 0; no sound when absent");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "server/admission.hpp"
@@ -14,7 +15,10 @@
 #include "server/openapi.hpp"
 #include "server/problem.hpp"
 #include "server/requests.hpp"
+#include "server/via_answers.hpp"
+#include "synth/render/render.hpp"
 #include "synth/say/report_json.hpp"
+#include "synth/talker/stream_models.hpp"
 #include "synth/talker/talker_shelf.hpp"
 #include "web/web_files.hpp"
 
@@ -37,6 +41,7 @@ void answer(httplib::Response& response, const Problem& problem) {
 // What a job needs until its stream ends.
 struct VideoJob {
     VideoRequest request;
+    std::optional<MotionInput> moving;  // drawn in place of what would be said
     std::shared_ptr<const Talker> talker;
     std::unique_ptr<Admission::Place> place;
 };
@@ -46,7 +51,9 @@ struct VideoJob {
 class Service::Routes {
   public:
     explicit Routes(const ServiceOptions& options)
-        : shelf_(options.talkers), admission_(options.running, options.waiting) {
+        : shelf_(options.talkers),
+          models_(all_stream_models(options.talkers)),
+          admission_(options.running, options.waiting) {
         shelf_.load(kDefaultTalker);
         bound_server(options);
         add_gets();
@@ -125,11 +132,9 @@ class Service::Routes {
         served.push_back("GET " + path);
         server.Get(path, handler);
     }
-    void post(const std::string& path, const std::function<void(const json&, httplib::Response&)>& handler) {
+    void post(const std::string& path, const httplib::Server::HandlerWithContentReader& handler) {
         served.push_back("POST " + path);
-        server.Post(path, [handler](const auto& request, auto& response, const auto& reader) {
-            handler(json_body(request, reader), response);
-        });
+        server.Post(path, handler);
     }
 
     void add_gets() {
@@ -161,24 +166,36 @@ class Service::Routes {
     }
 
     void add_posts() {
-        post("/v1/videos", [this](const json& body, auto& response) {
+        post("/v1/videos", [this](const auto& request, auto& response, const auto& reader) {
             auto job = std::make_shared<VideoJob>();
-            job->request = video_request_of(body);
-            const Script checked(job->request.say.speech);
-            job->talker = shelf_.load(job->request.talker);
+            if (body_type(request) == kViaType) {
+                job->talker = shelf_.load(kDefaultTalker);
+                job->moving = streamed_motion(via_body(request, reader), *job->talker, models_);
+            } else {
+                job->request = video_request_of(json_body(request, reader));
+                const Script checked(job->request.say.speech);
+                job->talker = shelf_.load(job->request.talker);
+            }
             job->place = admission_.reserve();
             response.status = 200;
             response.set_chunked_content_provider(
                 stream_type(job->request.format),
                 [this, job](std::size_t, httplib::DataSink& client) { return stream(*job, client); });
         });
-        post("/v1/viapoints", [this](const json& body, auto& response) {
-            const VideoRequest asked = viapoints_request_of(body);
+        post("/v1/viapoints", [this](const auto& request, auto& response, const auto& reader) {
+            const VideoRequest asked = viapoints_request_of(json_body(request, reader));
             const Script script(asked.say.speech);
             const auto talker = shelf_.load(asked.talker);
             const auto place = admission_.reserve();
             if (!place->wait_for_turn([this] { return !stopping_; }))
                 throw HttpError(503, "Service Unavailable", "the service stops");
+            if (request.get_header_value("Accept") == kViaType) {
+                const auto model = std::ranges::find(models_, talker->name(), &StreamModel::name);
+                const Bytes stream =
+                    spoken_stream(script, *talker, model == models_.end() ? nullptr : &*model);
+                response.set_content(reinterpret_cast<const char*>(stream.data()), stream.size(), kViaType);
+                return;
+            }
             answer(response, viapoints_json(script, asked.say.speech, *talker));
         });
     }
@@ -187,7 +204,17 @@ class Service::Routes {
     bool stream(const VideoJob& job, httplib::DataSink& client) {
         if (!job.place->wait_for_turn([&] { return !stopping_ && client.is_writable(); })) return false;
         return stream_film(film_of(job.request), client, stopping_,
-                           [&](FilmWriter& film) { say(job.request.say, *job.talker, film); });
+                           [&](FilmWriter& film) { perform(job, film); });
+    }
+
+    static void perform(const VideoJob& job, FilmWriter& film) {
+        if (!job.moving) {
+            say(job.request.say, *job.talker, film);
+            return;
+        }
+        RenderRequest request{.view = job.request.say.view, .fps = job.request.say.fps};
+        request.from_s = job.moving->motion.time_s.front();
+        render(request, *job.moving, Sound{}, *job.talker, film);
     }
 
     void add_page() {
@@ -202,6 +229,7 @@ class Service::Routes {
 
     std::atomic<bool> listening_ = false, stopping_ = false;
     TalkerShelf shelf_;
+    std::vector<StreamModel> models_;  // of all talkers
     Admission admission_;
 };
 

@@ -12,6 +12,7 @@
 #include "viapoints/analysis.hpp"
 #include "viapoints/measured.hpp"
 #include "viapoints/motion_csv.hpp"
+#include "viapoints/via_stream.hpp"
 
 namespace viaface {
 namespace {
@@ -201,7 +202,8 @@ void require_ending(const std::string& option, const std::string& path, const st
 }
 
 int analyse_file(const Options& options) {
-    require_ending("--output", options.output, ".csv");
+    const bool to_stream = options.output.ends_with(".via");
+    if (!to_stream) require_ending("--output", options.output, ".csv");
     require_ending("--plot", options.plot, ".svg");
     if (options.times != "shared" && options.times != "component")
         throw InputError("--times", options.times, "shared or component");
@@ -209,11 +211,19 @@ int analyse_file(const Options& options) {
     if (!options.plot.empty() && options.times == "component" && options.basis != "none")
         throw InputError("--plot", options.plot,
                          "--times shared or --basis none: components are no coordinates");
+    if (to_stream && (options.times != "shared" || options.basis != "none"))
+        throw InputError("--output", options.output,
+                         "a .csv, or --times shared and --basis none: a stream brings both");
     const Motion motion = read_motion_csv(options.motion).motion;
     const std::clock_t start = std::clock();
     const Found result = analysed(motion, options);
     const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    if (!options.output.empty()) write_whole(options.output, as_csv(result, options));
+    if (to_stream) {
+        write_whole(options.output,
+                    encode_stream(motion, nullptr, {.max_error_mm = options.max_error_mm}).bytes);
+    } else if (!options.output.empty()) {
+        write_whole(options.output, as_csv(result, options));
+    }
     if (!options.plot.empty()) write_whole(options.plot, drawn(motion, result, options));
     print_report(motion, result, options, took);
     return 0;
@@ -237,7 +247,8 @@ Command add_via_analyse(CLI::App& via) {
            "--basis", options->basis,
            "none, a number of principal components, or auto: chosen by its error on what is held out")
         ->capture_default_str();
-    app->add_option("-o,--output", options->output, "the via points as .csv");
+    app->add_option("-o,--output", options->output,
+                    "the via points as .csv, or as a stream that holds the bound, .via");
     app->add_option("--plot", options->plot, "measured, via points and recovered path as .svg");
     app->add_option("--points", options->points,
                     "what is plotted, as in lip_bottom_y,chin (default: lips and jaw)");

@@ -33,7 +33,7 @@ Motion rows_of(const DecodedStream& stream, double rate_hz) {
 
 int decode_file(const Options& options) {
     const StreamModelsAtHand models(options.model);
-    const DecodedStream stream = decode_stream(read_bytes(options.stream, "stream"), models.all());
+    const DecodedStream stream = decode_stream(read_stream_file(options.stream, models.all()), models.all());
     std::fputs(stream.describe_damage().c_str(), stderr);
     if (stream.segments.empty())
         throw InputError("stream", options.stream, "a stream with a segment that is whole");

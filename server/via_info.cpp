@@ -42,7 +42,7 @@ void print_head(const StreamHead& head, Eigen::Index modes) {
     std::printf("talker         %s\n",
                 head.talker.empty() ? "none: the basis stands in the stream" : head.talker.c_str());
     std::printf("points         %zu, in %d modes, %d of them the talker's\n", head.points.size(),
-                static_cast<int>(modes), head.shared_modes);
+                static_cast<int>(modes), static_cast<int>(head.shared_modes.size()));
     std::printf("bound          %g mm; step %g mm; %d ticks per s; sync at most every %.3g s\n",
                 head.bound_mm, head.step_mm, head.ticks_per_s,
                 static_cast<double>(head.longest_segment) / head.ticks_per_s);
@@ -70,7 +70,7 @@ Command add_via_info(CLI::App& via) {
     app->add_option("--model", options->model, "a stream model's file, beside those of the talkers");
     return [options] {
         const StreamModelsAtHand models(options->model);
-        const Bytes bytes = read_bytes(options->stream, "stream");
+        const Bytes bytes = read_stream_file(options->stream, models.all());
         const DecodedStream stream = decode_stream(bytes, models.all());
         print_head(stream.head, stream.basis.size());
         print_chunks(bytes, stream.head_bytes);

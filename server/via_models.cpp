@@ -1,9 +1,11 @@
 #include "server/via_models.hpp"
 
 #include "base/error.hpp"
+#include "base/whole_file.hpp"
 #include "server/commands.hpp"
 #include "synth/talker/stream_models.hpp"
 #include "synth/talker/talker_shelf.hpp"
+#include "viapoints/via_stream_head.hpp"
 
 namespace viaface {
 
@@ -19,6 +21,18 @@ StreamModelsAtHand::StreamModelsAtHand(const std::string& file)
     : models_(all_stream_models(talkers_folder())) {
     if (!file.empty()) models_.push_back(read_stream_model_file(file));
     for (const StreamModel& model : models_) all_.push_back(&model);
+}
+
+Bytes read_stream_file(const std::string& file, const std::vector<const StreamModel*>& models) {
+    Bytes bytes = read_bytes(file, "stream");
+    try {
+        read_stream_head(bytes, models);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw InputError("stream", file, "a stream of via points with a whole head: " + describe(error));
+    }
+    return bytes;
 }
 
 }  // namespace viaface

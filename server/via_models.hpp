@@ -23,4 +23,7 @@ class StreamModelsAtHand {
     std::vector<const StreamModel*> all_;
 };
 
+// InputError("stream", ...) for a file that is none, or whose head is damaged.
+Bytes read_stream_file(const std::string& file, const std::vector<const StreamModel*>& models);
+
 }  // namespace viaface

@@ -125,4 +125,31 @@ ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::ve
     return more;
 }
 
+std::vector<int> needed_modes(const ConfigurationBasis& basis, const std::vector<int>& points,
+                              const RowMatrix& positions, double max_error_mm) {
+    constexpr Index kMostRows = 2000;
+    const Index stride = positions.rows() / kMostRows + 1;
+    const RowMatrix rows = positions(Eigen::seq(0, Eigen::last, stride), Eigen::all);
+    const auto left = [&](const std::vector<int>& modes) {
+        return left_over({basis.mean, basis.modes(Eigen::all, modes)}, points, rows);
+    };
+    const Eigen::MatrixXd packed = coordinates_of(basis.modes.transpose(), points);
+    std::vector<int> modes;
+    for (RowMatrix rest = left(modes);
+         longest_triple(rest) > max_error_mm && modes.size() < kMostStreamComponents; rest = left(modes)) {
+        Eigen::VectorXd taken = (packed * rest.transpose()).rowwise().squaredNorm();
+        for (const int used : modes) taken[used] = -1;
+        Index best = 0;
+        if (taken.size() == 0 || taken.maxCoeff(&best) <= 0) break;
+        modes.insert(std::upper_bound(modes.begin(), modes.end(), static_cast<int>(best)),
+                     static_cast<int>(best));
+    }
+    for (std::size_t i = modes.size(); i-- > 0;) {
+        std::vector<int> fewer = modes;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+        if (!fewer.empty() && longest_triple(left(fewer)) <= max_error_mm) modes = std::move(fewer);
+    }
+    return modes;
+}
+
 }  // namespace viaface

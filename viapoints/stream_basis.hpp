@@ -29,4 +29,10 @@ RowMatrix fitted_components(const ConfigurationBasis& basis, const std::vector<i
 ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::vector<int>& points,
                                   const RowMatrix& positions, double max_error_mm);
 
+// Few modes of the basis, rising, that leave at most max_error_mm at `points`, or as many as there are: what
+// is left is filled by the mode that takes most of it, then those go again that can be spared, the last
+// first.
+std::vector<int> needed_modes(const ConfigurationBasis& basis, const std::vector<int>& points,
+                              const RowMatrix& positions, double max_error_mm);
+
 }  // namespace viaface

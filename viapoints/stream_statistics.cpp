@@ -1,6 +1,7 @@
 #include "viapoints/stream_statistics.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace viaface {
 namespace {
@@ -57,29 +58,44 @@ StreamStatistics plain_statistics(int components) {
     return plain;
 }
 
-StreamStatistics with_components(const StreamStatistics& statistics, int components) {
-    if (statistics.components == components) return statistics;
+StreamStatistics with_components(const StreamStatistics& statistics, const std::vector<int>& chosen,
+                                 int components) {
     StreamStatistics other = plain_statistics(components);
     if (statistics.components == 0) return other;
     other.bound_mm = statistics.bound_mm;
     other.step_mm = statistics.step_mm;
     other.gap = statistics.gap;
     other.beyond = statistics.beyond;
-    const int common = std::min(components, statistics.components);
-    for (int j = common; j < components; ++j)
-        for (auto& row : other.value[static_cast<std::size_t>(j)].any) row.fill({kRarely, kRarelySeen});
-    for (int j = 0; j < common; ++j) {
-        other.value[static_cast<std::size_t>(j)] = statistics.value[static_cast<std::size_t>(j)];
-        for (int c = 0; c < kRowClasses; ++c) {
-            const std::int32_t* from = statistics.weights.data() + statistics.weights_at(j, c);
-            std::int32_t* to = other.weights.data() + other.weights_at(j, c);
+    std::vector<int> known;
+    for (const int mode : chosen)
+        if (mode < statistics.components) known.push_back(mode);
+    const int common = static_cast<int>(known.size());
+    for (int j = 0; j < components; ++j) {
+        ValueContexts& value = other.value[static_cast<std::size_t>(j)];
+        if (j >= common) {
+            for (auto& row : value.any) row.fill({kRarely, kRarelySeen});
+            continue;
+        }
+        const int mode = known[static_cast<std::size_t>(j)];
+        value = statistics.value[static_cast<std::size_t>(mode)];
+        for (int row = 0; row < kRowClasses; ++row) {
+            const std::int32_t* from = statistics.weights.data() + statistics.weights_at(mode, row);
+            std::int32_t* to = other.weights.data() + other.weights_at(j, row);
             std::fill(to, to + 1 + components, 0);
-            std::copy(from, from + 1 + common, to);  // bias, and the last values of what both have
-            std::copy(from + 1 + statistics.components, from + 2 + statistics.components + j,
-                      to + 1 + components);
+            to[0] = from[0];
+            const std::int32_t* now = from + 2 + statistics.components;
+            for (int i = 0; i < common; ++i) to[1 + i] = from[1 + known[static_cast<std::size_t>(i)]];
+            to[1 + components] = from[1 + statistics.components];
+            for (int i = 0; i < j; ++i) to[2 + components + i] = now[known[static_cast<std::size_t>(i)]];
         }
     }
     return other;
+}
+
+StreamStatistics with_components(const StreamStatistics& statistics, int components) {
+    std::vector<int> chosen(static_cast<std::size_t>(std::min(components, statistics.components)));
+    std::iota(chosen.begin(), chosen.end(), 0);
+    return with_components(statistics, chosen, components);
 }
 
 void put_features(int j, const ViaPast& past, const ViaValues& now, std::vector<double>& features) {

@@ -101,7 +101,11 @@ void for_each_bit(StreamStatistics& statistics, const auto& visit) {
     visit(statistics.beyond);
 }
 
-// The same for fewer or more components: those that are new start as plain ones.
+// Of the components of `statistics` those of `chosen` (rising; those that it lacks rarely differ from the
+// last value), and as many more such ones as make `components`.
+StreamStatistics with_components(const StreamStatistics& statistics, const std::vector<int>& chosen,
+                                 int components);
+// All of its components, or its first ones.
 StreamStatistics with_components(const StreamStatistics& statistics, int components);
 
 // Knows nothing of anybody: the last value is predicted, and all else is learned on the way.

@@ -98,9 +98,13 @@ StreamModel learn_stream_model(const std::string& name, const std::vector<Motion
     StreamModel model{name, stored_basis(principal_basis(rows, kMostModes)), {}};
     model.basis.modes =
         Eigen::MatrixXd(model.basis.modes.leftCols(modes_within(model.basis, rows, options.basis_error_mm)));
+    const Index learned = model.basis.size();
+    if (options.also.rows() > 0)
+        model.basis = extended_basis(model.basis, points, options.also, options.also_error_mm);
+    const ConfigurationBasis own{model.basis.mean, model.basis.modes.leftCols(learned)};
     std::vector<std::future<StreamStatistics>> tables;
     for (const double bound : options.bounds_mm) {
-        const int components = modes_within(model.basis, rows, kBasisShare * bound);
+        const int components = modes_within(own, rows, kBasisShare * bound);
         tables.push_back(std::async(std::launch::async, [&, components, bound] {
             return learn_table(model, motions, points, components, bound, options);
         }));

@@ -11,6 +11,9 @@ struct ModelOptions {
     double basis_error_mm = 0.05;  // largest, of any configuration that was given
     double step_per_bound = 5;     // of each component
     int passes = 2;                // of encoding and learning
+    // [n x 114], configurations that its basis is to hold besides; their mean tells nothing
+    RowMatrix also = RowMatrix(0, kCoordinates);
+    double also_error_mm = 0.2;
 };
 
 // The points are those that all motions have. The same for any number of threads; bounds are learned side by

@@ -63,7 +63,9 @@ StreamTools tools_for(const Motion& motion, const StreamModel* model, const Stre
     head.longest_segment = longest_segment(options, ticks_per_s);
     head.bound_mm = stored_bound(options.max_error_mm);
     if (model) {
-        tools = shared_tools(*model, head.points, options.max_error_mm);
+        tools = shared_tools(
+            *model, head.points, options.max_error_mm,
+            needed_modes(model->basis, head.points, motion.positions, kBasisShare * head.bound_mm));
         head.start_s = motion.time_s.front();
         head.ticks_per_s = ticks_per_s;
         head.longest_segment = longest_segment(options, ticks_per_s);
@@ -161,7 +163,8 @@ EncodedStream written(const Motion& motion, const StreamTools& tools, const std:
 
 }  // namespace
 
-StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm) {
+StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm,
+                         std::vector<int> modes) {
     const std::vector<int> held = points_of(model.basis);
     for (const int p : points) {
         if (!std::binary_search(held.begin(), held.end(), p))
@@ -176,13 +179,14 @@ StreamTools shared_tools(const StreamModel& model, std::vector<int> points, doub
     head.talker = model.name;
     head.model_identity = model.identity();
     head.table = static_cast<int>(table);
-    head.shared_modes = statistics.components;
+    head.shared_modes = std::move(modes);
     head.points = std::move(points);
     head.bound_mm = stored_bound(max_error_mm);
     head.step_mm =
         static_cast<double>(static_cast<float>(statistics.step_mm / statistics.bound_mm * max_error_mm));
-    tools.basis = {model.basis.mean, model.basis.modes.leftCols(statistics.components)};
-    tools.statistics = statistics;
+    tools.basis = {model.basis.mean, model.basis.modes(Eigen::all, head.shared_modes)};
+    tools.statistics =
+        with_components(statistics, head.shared_modes, static_cast<int>(head.shared_modes.size()));
     return tools;
 }
 

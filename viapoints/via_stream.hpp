@@ -53,9 +53,10 @@ struct EncodedStream {
 EncodedStream encode_stream(const Motion& motion, const StreamModel* model, const StreamOptions& options = {},
                             const std::vector<StreamPhone>& phones = {});
 
-// A head, basis and statistics from a model, for motion of `points` under a bound. InputError("talker", ...)
-// for a point that the model lacks.
-StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm);
+// A head, basis and statistics from a model, for motion of `points` under a bound, in `modes` of it (rising).
+// InputError("talker", ...) for a point that the model lacks.
+StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm,
+                         std::vector<int> modes);
 
 struct DecodedSegment {
     std::uint32_t first_tick = 0;

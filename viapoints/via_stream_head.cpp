@@ -16,10 +16,35 @@ constexpr std::uint8_t kLayout = 1;  // LAYOUT.md with its 38 points
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("via stream, head: " + what); }
 
+Index shared_count(const StreamHead& head) { return static_cast<Index>(head.shared_modes.size()); }
+
+// A bit for each mode up to the last one that is used.
+void put_mode_set(ByteWriter& writer, const std::vector<int>& modes) {
+    const int bytes = modes.empty() ? 0 : modes.back() / 8 + 1;
+    writer.put(static_cast<std::uint8_t>(bytes));
+    for (int byte = 0; byte < bytes; ++byte) {
+        int bits = 0;
+        for (const int mode : modes) bits |= mode / 8 == byte ? 1 << mode % 8 : 0;
+        writer.put(static_cast<std::uint8_t>(bits));
+    }
+}
+
+std::vector<int> take_mode_set(ByteReader& reader) {
+    std::vector<int> modes;
+    const int bytes = reader.get<std::uint8_t>();
+    for (int byte = 0; byte < bytes; ++byte) {
+        const int bits = reader.get<std::uint8_t>();
+        for (int i = 0; i < 8; ++i)
+            if ((bits >> i) & 1) modes.push_back(8 * byte + i);
+    }
+    if (modes.size() > kMostStreamComponents) refuse("more than 114 modes");
+    return modes;
+}
+
 Bytes put_head(const StreamTools& tools) {
     const StreamHead& head = tools.head;
     ByteWriter writer;
-    const bool modes = tools.basis.size() > head.shared_modes;
+    const bool modes = tools.basis.size() > shared_count(head);
     writer.put(static_cast<std::uint8_t>((head.talker.empty() ? 0 : kHasTalker) |
                                          (head.start_s != 0 ? kHasStart : 0) | (modes ? kHasModes : 0)));
     writer.put(kLayout);
@@ -34,7 +59,7 @@ Bytes put_head(const StreamTools& tools) {
         writer.put_text(head.talker);
         writer.put(head.model_identity);
         writer.put(static_cast<std::uint8_t>(head.table));
-        writer.put(static_cast<std::uint8_t>(head.shared_modes));
+        put_mode_set(writer, head.shared_modes);
     }
     return writer.bytes();
 }
@@ -68,7 +93,7 @@ TakenHead take_head(ByteReader& reader) {
         if (head.talker.empty()) refuse("a talker without a name");
         head.model_identity = reader.get<std::uint32_t>();
         head.table = reader.get<std::uint8_t>();
-        head.shared_modes = reader.get<std::uint8_t>();
+        head.shared_modes = take_mode_set(reader);
     }
     if (reader.left() > 0) refuse("bytes left over");
     return taken;
@@ -100,9 +125,11 @@ void share(StreamTools& tools, const StreamModel& model) {
     if (head.table >= static_cast<int>(model.tables.size()))
         refuse("table " + std::to_string(head.table) + ", the model has " +
                std::to_string(model.tables.size()));
-    if (head.shared_modes > model.basis.size()) refuse("more modes than the model has");
-    tools.basis = {model.basis.mean, model.basis.modes.leftCols(head.shared_modes)};
-    tools.statistics = model.tables[static_cast<std::size_t>(head.table)];
+    if (!head.shared_modes.empty() && head.shared_modes.back() >= model.basis.size())
+        refuse("a mode that the model lacks");
+    tools.basis = {model.basis.mean, model.basis.modes(Eigen::all, head.shared_modes)};
+    tools.statistics = with_components(model.tables[static_cast<std::size_t>(head.table)], head.shared_modes,
+                                       static_cast<int>(head.shared_modes.size()));
 }
 
 void append_modes(StreamTools& tools, ByteReader reader) {
@@ -124,8 +151,8 @@ Bytes write_stream_head(const StreamTools& tools) {
         put_mean(mean, tools.basis);
         writer.add("MEAN", mean.bytes());
     }
-    if (tools.basis.size() > tools.head.shared_modes) {
-        put_modes(modes, tools.basis, tools.head.shared_modes);
+    if (tools.basis.size() > shared_count(tools.head)) {
+        put_modes(modes, tools.basis, shared_count(tools.head));
         writer.add("MODE", modes.bytes());
     }
     return writer.bytes();

@@ -8,9 +8,9 @@ namespace viaface {
 struct StreamHead {
     std::string talker;  // empty: the basis stands in the stream
     std::uint32_t model_identity = 0;
-    int table = 0;         // of the talker's model; of a stream without one, unused
-    int shared_modes = 0;  // leading modes of the talker's basis that are used
-    double start_s = 0;    // the time of tick 0
+    int table = 0;                  // of the talker's model; of a stream without one, unused
+    std::vector<int> shared_modes;  // those of the talker's basis that are used, rising
+    double start_s = 0;             // the time of tick 0
     int ticks_per_s = 30;
     std::uint32_t longest_segment = 300;  // ticks
     double bound_mm = 1, step_mm = 5;     // as float

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.hpp"
 
@@ -24,12 +25,18 @@ void drop_rows(Motion& motion, std::size_t count) {
     motion.positions = RowMatrix(motion.positions.bottomRows(static_cast<Index>(motion.time_s.size())));
 }
 
+std::vector<int> all_modes(const StreamModel& model) {
+    std::vector<int> modes(static_cast<std::size_t>(model.basis.size()));
+    std::iota(modes.begin(), modes.end(), 0);
+    return modes;
+}
+
 }  // namespace
 
 LiveStreamEncoder::LiveStreamEncoder(const StreamModel& model, std::vector<int> points, double start_s,
                                      const LiveOptions& options)
     : options_(options),
-      tools_(shared_tools(model, std::move(points), options.max_error_mm)),
+      tools_(shared_tools(model, std::move(points), options.max_error_mm, all_modes(model))),
       encoder_(tools_, options.rounds) {
     if (!(options.look_ahead_s >= 0.1 && options.look_ahead_s <= 10))
         throw InputError("look_ahead_s", std::to_string(options.look_ahead_s), "0.1 to 10");

@@ -14,6 +14,7 @@
 #include "viapoints/motion_trc.hpp"
 #include "viapoints/point_csv.hpp"
 #include "viapoints/point_names.hpp"
+#include "viapoints/via_stream.hpp"
 
 namespace viaface {
 namespace {
@@ -25,6 +26,15 @@ std::string line(const char* format, auto... values) {
     char text[400];
     std::snprintf(text, sizeof text, format, values...);
     return text;
+}
+
+constexpr double kStreamRate = 100;      // Hz, of a stream's samples
+constexpr double kLongestStream = 7200;  // s
+
+bool is_stream(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view kStart = "\x89VIA\r\n";
+    return bytes.size() > kStart.size() &&
+           std::string_view(reinterpret_cast<const char*>(bytes.data()), kStart.size()) == kStart;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -52,7 +62,24 @@ class Reading {
             lacking.push_back(line("%s (up to %.2f)", shape.name.c_str(), shape.largest));
         say("blend shapes: %zu, at full scale", recording.names.size());
         if (!lacking.empty()) input_.report.push_back("the talker lacks " + joined(lacking));
-        input_.motion = tracked(std::move(moved.motion));
+        input_.motion = seen(moved.motion, "face");
+        return finished();
+    }
+
+    // A stream, sampled; spans that were damaged are missing.
+    MotionInput stream(std::span<const std::uint8_t> bytes) {
+        const DecodedStream decoded = decoded_stream(bytes);
+        for (const StreamDamage& damage : decoded.damage) {
+            if (damage.size > 0) say("damage: %s at byte %zu", damage.what.c_str(), damage.offset);
+        }
+        if (decoded.segments.empty()) throw InputError(field_, "no segment", "a stream with motion in it");
+        Motion motion;
+        const double begin = decoded.begin_s(), end = decoded.end_s();
+        if (!(end - begin <= kLongestStream)) throw InputError(field_, "a longer stream", "at most 7200 s");
+        for (int i = 0; begin + i / kStreamRate < end; ++i) motion.time_s.push_back(begin + i / kStreamRate);
+        motion.time_s.push_back(end);
+        motion.positions = decoded.positions(motion.time_s);
+        input_.motion = seen(motion, "motion");
         return finished();
     }
 
@@ -83,13 +110,26 @@ class Reading {
                 gap.bridged ? "bridged" : "left");
     }
 
-    // Without the frames in which no face was seen; motion runs on between those next to them.
-    Motion tracked(const Motion& motion) {
+    DecodedStream decoded_stream(std::span<const std::uint8_t> bytes) const {
+        try {
+            std::vector<const StreamModel*> models;
+            for (const StreamModel& model : options_.stream_models) models.push_back(&model);
+            return decode_stream(bytes, models);
+        } catch (const InputError&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            throw InputError(field_, error.what(), "a whole head of a via-point stream");
+        }
+    }
+
+    // Without the samples at which there is no point; motion runs on between those next to them.
+    Motion seen(const Motion& motion, const char* what) {
         std::vector<Index> kept;
         for (Index i = 0; i < motion.positions.rows(); ++i) {
-            if (motion.positions.row(i).allFinite()) kept.push_back(i);
+            if (!motion.positions.row(i).array().isNaN().all()) kept.push_back(i);
         }
-        if (kept.empty()) throw InputError(field_, "no face in any frame", "at least one frame with a face");
+        if (kept.empty())
+            throw InputError(field_, line("no %s at any time", what), line("%s at one time at least", what));
         Motion result;
         for (const Index i : kept) {
             const double now = motion.time_s[static_cast<std::size_t>(i)];
@@ -97,9 +137,9 @@ class Reading {
                 const double gap = now - result.time_s.back();
                 if (gap > options_.longest_gap_s)
                     throw InputError(field_,
-                                     line("no face for %.3f s from %.3f s", gap, result.time_s.back()),
+                                     line("no %s for %.3f s from %.3f s", what, gap, result.time_s.back()),
                                      line("gaps up to %.3f s (--longest-gap)", options_.longest_gap_s));
-                say("gap: no face for %.3f s from %.3f s, bridged", gap, result.time_s.back());
+                say("gap: no %s for %.3f s from %.3f s, bridged", what, gap, result.time_s.back());
             }
             result.time_s.push_back(now);
         }
@@ -191,12 +231,16 @@ double range_of(const Motion& motion, int point) {
 
 MotionInput read_motion(const std::filesystem::path& file, const Talker& talker,
                         const MotionInputOptions& options) {
-    const std::string field = file.filename().string();
-    const Bytes bytes = read_bytes(file, "motion", kMotionFileBytes);
-    if (bytes.empty()) throw InputError(field, "an empty file", "motion as CSV, C3D, TRC or npy");
+    return motion_of(read_bytes(file, "motion", kMotionFileBytes), file.filename().string(), talker, options);
+}
+
+MotionInput motion_of(const Bytes& bytes, const std::string& field, const Talker& talker,
+                      const MotionInputOptions& options) {
+    if (bytes.empty()) throw InputError(field, "an empty file", "motion as CSV, C3D, TRC, npy or .via");
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     Reading reading(field, talker, options);
     if (is_npy(bytes)) return reading.performance(facegood_recording(parse_npy(bytes, field), field));
+    if (is_stream(bytes)) return reading.stream(bytes);
     if (is_live_link(text)) return reading.performance(parse_live_link(text, field));
     return reading.points(points_of(bytes, field, options.unit));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "synth/motion/motion_input.hpp"
 #include "synth/motion/retarget.hpp"
 #include "synth/say/recital.hpp"
 #include "viapoints/measured.hpp"
@@ -43,6 +44,16 @@ void add_performed(BenchMotions& motions, const Talker& talker, const fs::path& 
     }
 }
 
+void add_measured(BenchMotions& motions, const Talker& talker, const fs::path& file) {
+    if (!fs::exists(file)) {
+        motions.skipped.push_back("measured sentence: " + file.string() + " is not there");
+        return;
+    }
+    Motion motion = read_motion(file, talker).motion;
+    motion.extra.clear();
+    motions.others.push_back({"measured lips", std::move(motion)});
+}
+
 }  // namespace
 
 Motion spoken_motion(const Talker& talker, const std::vector<std::string>& sentences) {
@@ -71,9 +82,22 @@ Motion spoken_motion(const Talker& talker, const std::vector<std::string>& sente
     return motion;
 }
 
+RowMatrix shape_positions(const Talker& talker) {
+    const auto shapes = static_cast<Index>(talker.face.shapes.size());
+    if (shapes == 0) return RowMatrix(0, kCoordinates);
+    BlendRecording each;
+    for (const NamedShape& shape : talker.face.shapes) {
+        each.time_s.push_back(static_cast<double>(each.names.size()));
+        each.names.push_back(shape.name);
+    }
+    each.weights = RowMatrix::Identity(shapes, shapes);
+    return retarget(talker.face, talker.poser, each).motion.positions;
+}
+
 BenchMotions bench_motions(const Talker& talker, const fs::path& data) {
     BenchMotions motions;
     add_performed(motions, talker, data);
+    add_measured(motions, talker, data / "haskins_f01" / "F01_B01_S01_R01_N.csv");
     motions.others.push_back(
         {"own speech",
          spoken_motion(talker, {"The boy has a big red ball.", "Please call me when you leave the house.",

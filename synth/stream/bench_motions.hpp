@@ -18,8 +18,8 @@ struct BenchMotions {
     std::vector<std::string> skipped;       // what is not there, and why
 };
 
-// `data` holds facegood/ and livelink_rom/; both are moved to the talker's points by its named shapes, at
-// full scale.
+// `data` holds facegood/ and livelink_rom/, which are moved to the talker's points by its named shapes, at
+// full scale, and haskins_f01/, whose points are scaled to the talker.
 BenchMotions bench_motions(const Talker& talker, const std::filesystem::path& data);
 
 // The share of samples at which some point moves faster than 10 mm/s.
@@ -30,6 +30,10 @@ struct MotionRange {
     double largest_mm = 0, mean_mm = 0;
 };
 MotionRange range_of(const Motion& motion);
+
+// The face with each of the talker's named shapes in turn, whole: [shapes x 114], mm. A stream's basis that
+// holds these holds whatever is performed with them.
+RowMatrix shape_positions(const Talker& talker);
 
 // The talker's own motion for sentences, 100 per second.
 Motion spoken_motion(const Talker& talker, const std::vector<std::string>& sentences);

@@ -1,5 +1,6 @@
-// viaface_train make SCANS OUTPUT: the built-in talker from its scans and performed recitations. A program of
-// its own, so that the model that performs is not linked into what speaks.
+// viaface_train make SCANS OUTPUT: the built-in talker from its scans and performed recitations;
+// viaface_train stream DATA TALKER: the stream model of a talker that is made. A program of its own, so that
+// the model that performs is not linked into what speaks.
 
 #include <cstdio>
 #include <filesystem>
@@ -40,7 +41,11 @@ nlohmann::json description() {
              "incisors' edges at rest"},
             {"layout", "viapoints/LAYOUT.md, 38 points"},
             {"language", "en"},
-            {"files", {{"face", "face.glb"}, {"estimators", "estimators.bin"}, {"codex", "codex.via"}}},
+            {"files",
+             {{"face", "face.glb"},
+              {"estimators", "estimators.bin"},
+              {"codex", "codex.via"},
+              {"stream", "stream.bin"}}},
             {"provenance",
              {{"shape",
                "Computed from posed scans of the ICT Face Model Light (ICT-FaceKit) on meshes of this "
@@ -49,7 +54,12 @@ nlohmann::json description() {
               {"motion",
                "Performed by a gestural model for the timing of a speech synthesiser (Flite, voice rms); not "
                "measured from a person."},
-              {"corpus", "Sentences written for this project, and strings of phones made by rule."}}},
+              {"corpus", "Sentences written for this project, and strings of phones made by rule."},
+              {"stream",
+               "Basis and statistics of via-point streams: from the talker's own speech, from its named "
+               "shapes, and "
+               "from two recordings of blend-shape weights (FACEGOOD, MIT licence) as its points move in "
+               "them. No recorded motion is kept."}}},
             {"licence", "MIT"},
             {"notice",
              "Copyright (c) 2020 USC Institute for Creative Technologies (ICT Face Model Light, MIT "
@@ -102,6 +112,11 @@ void make_codex(const BlendHead& head, const fs::path& corpus, const fs::path& o
         100 * shares.exact, 100 * shares.of_class, 100 * shares.half);
 }
 
+int make_stream(const fs::path& data, const fs::path& talker) {
+    teach_stream(talker, data, read_sentences(VIAFACE_CORPUS), tell);
+    return 0;
+}
+
 int make(const fs::path& scans, const fs::path& output) {
     const BlendHead head(scans);
     fs::create_directories(output);
@@ -109,8 +124,7 @@ int make(const fs::path& scans, const fs::path& output) {
     make_shapes(head, output);
     make_codex(head, fs::path(VIAFACE_CORPUS), output);
     write_whole(output / "talker.json", std::string_view(description().dump(2) + "\n"));
-    teach_stream(output, scans.parent_path(), read_sentences(VIAFACE_CORPUS), tell);
-    return 0;
+    return make_stream(scans.parent_path(), output);
 }
 
 }  // namespace
@@ -118,9 +132,11 @@ int make(const fs::path& scans, const fs::path& output) {
 
 int main(int argc, char** argv) {
     try {
-        if (argc != 4 || std::string(argv[1]) != "make")
-            throw viaface::InputError("arguments", argc > 1 ? argv[1] : "", "make SCANS OUTPUT");
-        return viaface::make(argv[2], argv[3]);
+        const std::string step = argc == 4 ? argv[1] : "";
+        if (step == "make") return viaface::make(argv[2], argv[3]);
+        if (step == "stream") return viaface::make_stream(argv[2], argv[3]);
+        throw viaface::InputError("arguments", argc > 1 ? argv[1] : "",
+                                  "make SCANS OUTPUT, or stream DATA TALKER");
     } catch (const viaface::InputError& error) {
         std::fprintf(stderr, "viaface: %s\n", error.what());
         return 2;

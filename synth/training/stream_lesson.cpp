@@ -20,8 +20,9 @@ void teach_stream(const std::filesystem::path& talker_folder, const std::filesys
     BenchMotions recorded = bench_motions(talker, data);
     for (BenchMotion& take : recorded.phrase_takes) motions.push_back(std::move(take.motion));
     for (const std::string& skipped : recorded.skipped) progress("the stream model does without " + skipped);
-    write_whole(talker_folder / kStreamModelFile,
-                write_stream_model(learn_stream_model(talker.name(), motions)));
+    write_whole(
+        talker_folder / kStreamModelFile,
+        write_stream_model(learn_stream_model(talker.name(), motions, {.also = shape_positions(talker)})));
 }
 
 }  // namespace viaface

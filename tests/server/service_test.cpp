@@ -9,7 +9,9 @@
 #include "server/http_body.hpp"
 #include "server/json_fields.hpp"
 #include "synth/film/media_reader.hpp"
+#include "synth/talker/stream_models.hpp"
 #include "tests/server/served.hpp"
+#include "viapoints/via_stream.hpp"
 
 namespace viaface {
 namespace {
@@ -116,6 +118,32 @@ TEST(Service, RefusesRubbishAsProblemsThatNameTheField) {
         EXPECT_EQ(answer->status, refused.status) << refused.field << answer->body;
         EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
         EXPECT_EQ(json::parse(answer->body).value("field", ""), refused.field) << answer->body;
+    }
+}
+
+TEST(Service, AnswersViaPointsAsAStreamAndDrawsOne) {
+    const Served served;
+    auto client = served.client();
+    const auto stream = client.Post("/v1/viapoints", {{"Accept", kViaType}},
+                                    json{{"phones", "b:90 aa1:150"}}.dump(), "application/json");
+    ASSERT_TRUE(stream);
+    ASSERT_EQ(stream->status, 200) << stream->body;
+    EXPECT_EQ(stream->get_header_value("Content-Type"), kViaType);
+    const auto models = all_stream_models(loopback().talkers);
+    std::vector<const StreamModel*> at_hand;
+    for (const StreamModel& model : models) at_hand.push_back(&model);
+    const DecodedStream decoded = decode_stream(bytes_of(stream->body), at_hand);
+    EXPECT_TRUE(decoded.damage.empty()) << decoded.describe_damage();
+    EXPECT_GE(decoded.phones.size(), 2u);
+    const auto film = client.Post("/v1/videos", stream->body, kViaType);
+    ASSERT_TRUE(film);
+    EXPECT_EQ(film->status, 200) << film->body;
+    EXPECT_EQ(film->get_header_value("Content-Type"), "video/mp4");
+    EXPECT_EQ(film->body.substr(4, 4), "ftyp");
+    for (const std::string& rubbish : {std::string(), std::string("hello"), stream->body.substr(0, 20)}) {
+        const auto refused = client.Post("/v1/videos", rubbish, kViaType);
+        EXPECT_EQ(refused->status, 422) << refused->body;
+        EXPECT_EQ(json::parse(refused->body).value("field", ""), "stream");
     }
 }
 

@@ -1,12 +1,12 @@
-#include "synth/render/live.hpp"
-
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 #include "base/error.hpp"
+#include "synth/render/live_via.hpp"
 #include "tests/synth/render/reel.hpp"
 #include "tests/synth/render/spoken_motion.hpp"
+#include "viapoints/motion_at.hpp"
 #include "viapoints/motion_csv.hpp"
 
 namespace viaface {
@@ -34,6 +34,28 @@ TEST(Live, DrawsWhatAFileOfTheSameRowsDraws) {
     for (std::size_t n = 0; n < from_file.size(); ++n) EXPECT_LT((live[n] - from_file[n]).norm(), 1e-9) << n;
     EXPECT_TRUE(live_reel.finished);
     EXPECT_LE(live_reel.sound.size(), live.size() * 48000 / 25);
+}
+
+TEST(Live, DrawsAStreamAsItsFile) {
+    const Motion motion = opening_motion(50, 1);
+    const Bytes bytes = encode_stream(motion, nullptr, {.max_error_mm = 0.5, .sync_s = 0.4}).bytes;
+    std::istringstream in(std::string(bytes.begin(), bytes.end()));
+    ASSERT_TRUE(begins_via(in));
+    LiveVia rows(in, {});
+    Reel reel;
+    std::vector<Configuration> drawn;
+    render_live(
+        small(), [&] { return rows.next(); }, momo(), reel,
+        [&](const DrawnFrame& frame) { drawn.push_back(frame.commanded); });
+    EXPECT_EQ(rows.describe_damage(), "");
+    ASSERT_GE(drawn.size(), 25u);
+    for (std::size_t n = 0; n < 25; ++n) {
+        const Configuration off = drawn[n] - motion_at(motion, static_cast<double>(n) / 25);
+        for (int p = 0; p < kPoints; ++p) EXPECT_LT(point_of(off, p).norm(), 0.55) << n;
+    }
+    std::istringstream rubbish(std::string("\x89VIA, and then something else that is none at all"));
+    LiveVia none(rubbish, {});
+    EXPECT_THROW(none.next(), InputError);
 }
 
 TEST(Live, AFrameWaitsForTheRowBehindTheOneAfterIt) {

@@ -8,10 +8,12 @@
 #include "base/whole_file.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/synth/render/spoken_motion.hpp"
+#include "viapoints/motion_at.hpp"
 #include "viapoints/motion_c3d.hpp"
 #include "viapoints/motion_csv.hpp"
 #include "viapoints/motion_trc.hpp"
 #include "viapoints/point_names.hpp"
+#include "viapoints/via_stream.hpp"
 
 namespace viaface {
 namespace {
@@ -120,6 +122,19 @@ TEST_F(MotionFile, AFacelessSpanOfATakeIsBridgedOrRefused) {
     MotionInputOptions options;
     options.longest_gap_s = 0.05;
     EXPECT_THROW(read_motion(file("t.csv", take), momo(), options), InputError);
+}
+
+TEST_F(MotionFile, AStreamComesWithinItsBound) {
+    const Motion motion = opening_motion(50, 2);
+    const EncodedStream encoded = encode_stream(motion, nullptr, {.max_error_mm = 0.5});
+    const MotionInput read = read_motion(file("a.via", encoded.bytes), momo());
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const Configuration off = motion_at(read.motion, motion.time_s[i]) - motion.at(i);
+        for (int p = 0; p < kPoints; ++p) EXPECT_LT(point_of(off, p).norm(), 0.51) << i;
+    }
+    Bytes cut = encoded.bytes;
+    cut.resize(20);
+    EXPECT_THROW(read_motion(file("cut.via", cut), momo()), InputError);
 }
 
 TEST_F(MotionFile, WhatIsNoMotionIsRefusedByName) {
