@@ -287,6 +287,8 @@ ScanFolder read_scan_folder(const fs::path& folder) {
                                                               : named_picture(surface.mesh, folder);
                 if (surface.picture.pixels.empty() && !surface.mesh.uv_triangles.empty())
                     surface.picture = likely_picture(surface.mesh, folder, file, scans.remarks);
+            } else {
+                scans.remarks.push_back("posture " + posture + " is not used: the modes are borrowed");
             }
             scans.postures.emplace(posture, std::move(surface));
         }
