@@ -61,10 +61,9 @@ Motion spoken_motion(const Talker& talker, const std::vector<std::string>& sente
     std::vector<RowMatrix> parts;
     Index rows = 0;
     for (const std::string& sentence : sentences) {
-        const Recital recital = recite(
-            talker.codex,
-            Script({.text = sentence, .phones = "", .voice = std::string(kDefaultVoice), .prosody = {}})
-                .utterance(0));
+        SpeechRequest request;
+        request.text = sentence;
+        const Recital recital = recite(talker.codex, Script(request).utterance(0));
         std::vector<double> times;
         for (std::int64_t n = 0; static_cast<double>(n) / kSpokenRate < recital.track.time_s.back(); ++n) {
             times.push_back(static_cast<double>(n) / kSpokenRate);
