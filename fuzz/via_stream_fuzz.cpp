@@ -1,9 +1,11 @@
 // Any bytes are a stream (perhaps a damaged one), a stream model, or an error; whole or piece by piece they
-// tell the same. The first byte says what the others are: a whole file, packets behind a good head, the
-// content of a segment (checksums would stop most guesses), or a model.
+// tell the same (but for packets in packets). The first byte says what the others are: a whole file, packets
+// behind a good head, the content of a segment (checksums would stop most guesses), or a model.
 #include <cstdlib>
 
+#include "viapoints/stream_packets.hpp"
 #include "viapoints/stream_segment.hpp"
+#include "viapoints/via_stream_head.hpp"
 #include "viapoints/via_stream_live.hpp"
 
 namespace viaface {
@@ -25,6 +27,16 @@ Bytes joined(Bytes bytes, std::span<const std::uint8_t> more) {
     return bytes;
 }
 
+// Read whole, such a packet hides those in its content. Piece by piece they come first: a reader that waited
+// for what a broken length announces would lose all that follows.
+bool holds_packets_in_packets(std::span<const std::uint8_t> bytes) {
+    PacketReader packets(bytes, read_stream_head(bytes, {}).size, false);
+    while (const auto packet = packets.next()) {
+        if (PacketReader(packet->content, 0, false).next()) return true;
+    }
+    return false;
+}
+
 void decode_both_ways(std::span<const std::uint8_t> bytes) {
     std::size_t segments = 0;
     try {
@@ -32,6 +44,7 @@ void decode_both_ways(std::span<const std::uint8_t> bytes) {
         segments = stream.segments.size();
         if (segments > 0) stream.positions({stream.begin_s(), stream.end_s()});
         stream.describe_damage();
+        if (holds_packets_in_packets(bytes)) return;
     } catch (const std::runtime_error&) {
         return;
     }
