@@ -20,16 +20,14 @@ bool is_phone(const HeardPhone& heard) { return heard.arc >= 0; }
 // Phones in a chain; before every word and after the last, a pause or nothing.
 struct Chain {
     PhoneGraph graph{1, {}, {}};
-    std::vector<int> phone_of_arc;  // [arcs], -1 for pauses
 
-    void add(PhoneId phone, int index) {
+    void add(PhoneId phone) {
         graph.arcs.push_back({graph.states - 1, graph.states, phone});
-        phone_of_arc.push_back(index);
         ++graph.states;
     }
     void maybe_pause() {
         graph.skips.emplace_back(graph.states - 1, graph.states);
-        add(kPause, -1);
+        add(kPause);
     }
 };
 
@@ -41,7 +39,7 @@ Chain chain_of(const Pronunciation& said) {
     Chain chain;
     for (std::size_t i = 0; i < said.phones.size(); ++i) {
         if (begins_word(said, i)) chain.maybe_pause();
-        chain.add(said.phones[i].phone, static_cast<int>(i));
+        chain.add(said.phones[i].phone);
     }
     chain.maybe_pause();
     return chain;
@@ -140,8 +138,10 @@ struct Losses {
 
     Losses(std::span<const std::int16_t> at_16_khz, const std::vector<HeardPhone>& path)
         : said(frames_of(path)), any(frames_of(likeliest_path(at_16_khz, any_phones()))) {
-        said.resize(any.size());
-        power = powers_of(at_16_khz, any.size());
+        const std::size_t all = std::max(said.size(), any.size());
+        said.resize(all);
+        any.resize(all);
+        power = powers_of(at_16_khz, all);
         double frames = 0;
         for (std::size_t i = 0; i < said.size(); ++i) {
             power_of_words += said[i].is_phone * power[i];
