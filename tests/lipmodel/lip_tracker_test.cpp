@@ -13,21 +13,11 @@ namespace {
 constexpr int kWidth = 200, kHeight = 220;
 constexpr double kEyeDistance = 52, kMouthDown = 58;  // px
 
-struct Learned {
-    Eigen::MatrixXd frames = test::speaking_mouth(300);
-    LipBody body = lip_body(test::resting_mouth());
-    LipModel model = learn_lips(body, frames, {.modes = 5, .noise_mm = 0.05});
-};
-const Learned& learned() {
-    static const Learned made;
-    return made;
-}
-
 // A face that has moved by `shift` px: the painted mouth, and above it eyes, brows and a nose.
 struct Film {
     LipPose pose{.shift = {0, 0, 1000}};
     Nodes lips(int frame) const {
-        const Learned& l = learned();
+        const test::Learned& l = test::learned_to_track();
         const MarkedPoints goal = l.frames.col(frame) - marked_of(as_column(l.body.mesh.nodes));
         return as_lip_nodes(as_column(l.body.mesh.nodes) + l.body.spread * goal);
     }
@@ -92,7 +82,7 @@ struct Set {
 
 TEST(LipTracker, FollowsLipsThatSpeakWhileTheHeadMoves) {
     const Set set;
-    LipTracker tracker(learned().model, set.seen);
+    LipTracker tracker(test::learned_to_track().model, set.seen);
     std::vector<double> errors, gaps;
     for (int i = 0; i < 12; ++i) {
         const Eigen::Vector2d shift(0.7 * i, 2 * std::sin(0.5 * i));
@@ -118,7 +108,7 @@ TEST(LipTracker, FollowsLipsThatSpeakWhileTheHeadMoves) {
 
 TEST(LipTracker, SaysThatItIsLostAndRecovers) {
     const Set set;
-    LipTracker tracker(learned().model, set.seen);
+    LipTracker tracker(test::learned_to_track().model, set.seen);
     const Eigen::Vector2d still(0, 0);
     EXPECT_TRUE(tracker.next(set.pictures[0].picture(), set.film.face(still)).found);
     const test::Painted black{kWidth, kHeight, std::vector<std::uint8_t>(3u * kWidth * kHeight, 0)};
@@ -135,8 +125,8 @@ TEST(LipTracker, RefusesAMouthTooSmall) {
     const Set set;
     std::vector<FaceSeen> seen = set.seen;
     for (FaceSeen& s : seen) s.mouth = MouthInPicture{.centre = {100, 150}, .width = 8, .height = 3};
-    EXPECT_THROW(LipTracker(learned().model, seen), InputError);
-    EXPECT_THROW(LipTracker(learned().model, {}), std::invalid_argument);
+    EXPECT_THROW(LipTracker(test::learned_to_track().model, seen), InputError);
+    EXPECT_THROW(LipTracker(test::learned_to_track().model, {}), std::invalid_argument);
 }
 
 TEST(MouthFinder, FindsTheRedBelowTheEyes) {
@@ -166,8 +156,8 @@ TEST(HeadFollower, FindsAKnownMove) {
 }
 
 TEST(Thickness, MovesBordersAndSkinNotTheInnerEdge) {
-    const LipModel thick = with_thickness(learned().model, 1);
-    const Eigen::Index modes = learned().model.modes.cols();
+    const LipModel thick = with_thickness(test::learned_to_track().model, 1);
+    const Eigen::Index modes = test::learned_to_track().model.modes.cols();
     ASSERT_EQ(thick.modes.cols(), modes + kThicknessModes);
     const Eigen::MatrixXd gram = thick.modes.transpose() * thick.modes;
     EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff(), 1e-9);

@@ -10,22 +10,12 @@
 namespace viaface {
 namespace {
 
-struct Learned {
-    Eigen::MatrixXd frames = test::speaking_mouth(300);
-    LipBody body = lip_body(test::resting_mouth());
-    LipModel model = learn_lips(body, frames, {.modes = 5, .noise_mm = 0.05});
-};
-const Learned& learned() {
-    static const Learned made;
-    return made;
-}
-
 LipPose turned(double yaw_degrees) {
     return {.turn = {0, yaw_degrees * M_PI / 180, 0}, .shift = {3, -2, 1000}, .scale = {1, 1, 1}};
 }
 
 Eigen::VectorXd true_modes(int frame) {
-    const Learned& l = learned();
+    const test::Learned& l = test::learned_to_track();
     const MarkedPoints goal = l.frames.col(frame) - marked_of(as_column(l.body.mesh.nodes));
     return lip_modes_of(l.model, as_column(l.body.mesh.nodes) + l.body.spread * goal);
 }
@@ -42,15 +32,15 @@ struct Scene {
     test::Painted painted(const Eigen::VectorXd& p, std::uint64_t seed) const {
         test::Painting seeded = how;
         seeded.seed = seed;
-        return test::paint(seeded, as_lip_nodes(lip_shape(learned().model, p)), pose);
+        return test::paint(seeded, as_lip_nodes(lip_shape(test::learned_to_track().model, p)), pose);
     }
 
     // Classes learned from the regions of one frame whose lips are known.
     Scene& with_own_classes() {
         const Eigen::VectorXd p = true_modes(25);  // open
         const auto first = painted(p, 3);
-        const RegionSamples seen =
-            sample_regions(how.camera, pose, as_lip_nodes(lip_shape(learned().model, p)), first.picture());
+        const RegionSamples seen = sample_regions(
+            how.camera, pose, as_lip_nodes(lip_shape(test::learned_to_track().model, p)), first.picture());
         classes = learn_classes(seen.lips, seen.skin, seen.opening);
         return *this;
     }
@@ -114,8 +104,9 @@ void expect_gradient(const LipPosterior& posterior, const Eigen::VectorXd& centr
 TEST(LipPosterior, GradientIsTheSlopeWithAreasHeld) {
     const Scene scene(10, 1, 20);
     const ClassMaps maps = scene.maps(true_modes(30), 5);
-    const LipPosterior posterior(learned().model, scene.how.camera, scene.pose, maps, maps.independence);
-    expect_gradient(posterior, true_modes(30), learned().model.variance.cwiseSqrt());
+    const LipPosterior posterior(test::learned_to_track().model, scene.how.camera, scene.pose, maps,
+                                 maps.independence);
+    expect_gradient(posterior, true_modes(30), test::learned_to_track().model.variance.cwiseSqrt());
 }
 
 TEST(LipPosterior, FacesTurnedAwayDoNotCount) {
@@ -123,8 +114,8 @@ TEST(LipPosterior, FacesTurnedAwayDoNotCount) {
     const ClassMaps maps = scene.maps(true_modes(30), 1);
     LipPose behind = scene.pose;
     behind.turn = {0, M_PI, 0};
-    const LipPosterior front(learned().model, scene.how.camera, scene.pose, maps, 1),
-        back(learned().model, scene.how.camera, behind, maps, 1);
+    const LipPosterior front(test::learned_to_track().model, scene.how.camera, scene.pose, maps, 1),
+        back(test::learned_to_track().model, scene.how.camera, behind, maps, 1);
     const Eigen::VectorXd p = true_modes(30);
     EXPECT_GT((front.areas(p).array() > 0).count(), 300);
     EXPECT_LT((back.areas(p).array() > 0).count(), 50);
@@ -133,7 +124,8 @@ TEST(LipPosterior, FacesTurnedAwayDoNotCount) {
 TEST(LipPosterior, TheTruthIsMoreProbableThanOtherShapes) {
     const Scene scene(8, 1, 0);
     const ClassMaps maps = scene.maps(true_modes(30), 9);
-    const LipPosterior posterior(learned().model, scene.how.camera, scene.pose, maps, maps.independence);
+    const LipPosterior posterior(test::learned_to_track().model, scene.how.camera, scene.pose, maps,
+                                 maps.independence);
     const double here = posterior.value(true_modes(30));
     for (const int other : {10, 50, 90, 130, 170}) EXPECT_LT(posterior.value(true_modes(other)), here);
 }
@@ -142,7 +134,8 @@ TEST(LipAscent, NeverGoesDown) {
     const Scene scene(15, 1, 30);
     for (int frame = 0; frame < 100; frame += 9) {
         const ClassMaps maps = scene.maps(true_modes(frame), frame);
-        const LipPosterior posterior(learned().model, scene.how.camera, scene.pose, maps, maps.independence);
+        const LipPosterior posterior(test::learned_to_track().model, scene.how.camera, scene.pose, maps,
+                                     maps.independence);
         const LipFit fit = climb(posterior, Eigen::VectorXd::Zero(5));
         EXPECT_LE(fit.iterations, 20);
         for (std::size_t i = 1; i < fit.climbed.size(); ++i) EXPECT_GT(fit.climbed[i], fit.climbed[i - 1]);
@@ -160,7 +153,7 @@ struct Recovery {
 
 // Frames follow each other; each fit starts from the one before.
 Recovery recover(const Scene& scene, int frames) {
-    const LipModel& model = learned().model;
+    const LipModel& model = test::learned_to_track().model;
     const int first = LipMesh::node(LipMesh::kBorderRing, 0), lips = LipMesh::kRingNodes - first;
     const Eigen::Matrix3d turn = camera_from_head(scene.pose);
     Eigen::VectorXd p = Eigen::VectorXd::Zero(model.modes.cols());
@@ -211,12 +204,12 @@ TEST(LipTracking, KnownModesAreRecoveredInHalfShadow) {
 TEST(LipPosterior, GradientCoversThePoseToo) {
     const Scene scene(10, 1, 20);
     const ClassMaps maps = scene.maps(true_modes(30), 5);
-    const LipPosterior posterior(learned().model, scene.how.camera, scene.pose, maps, maps.independence,
-                                 {.turn = 0.1, .shift = 5, .scale = 0.1});
+    const LipPosterior posterior(test::learned_to_track().model, scene.how.camera, scene.pose, maps,
+                                 maps.independence, {.turn = 0.1, .shift = 5, .scale = 0.1});
     ASSERT_EQ(posterior.parameters(), 5 + 9);
     Eigen::VectorXd sd(14);
-    sd << learned().model.variance.cwiseSqrt(), Eigen::Vector3d::Constant(0.1), Eigen::Vector3d::Constant(5),
-        Eigen::Vector3d::Constant(0.1);
+    sd << test::learned_to_track().model.variance.cwiseSqrt(), Eigen::Vector3d::Constant(0.1),
+        Eigen::Vector3d::Constant(5), Eigen::Vector3d::Constant(0.1);
     expect_gradient(posterior, posterior.start(true_modes(30)), sd);
 }
 
@@ -228,12 +221,13 @@ TEST(LipTracking, ThePoseIsFollowed) {
     LipPose expected = scene.pose;
     expected.shift += Eigen::Vector3d(3, -2.5, 0);
     expected.turn += Eigen::Vector3d(0, 0, 0.1);
-    const LipPosterior posterior(learned().model, scene.how.camera, expected, maps, maps.independence,
-                                 {.turn = 0.1, .shift = 5, .scale = 0});
+    const LipPosterior posterior(test::learned_to_track().model, scene.how.camera, expected, maps,
+                                 maps.independence, {.turn = 0.1, .shift = 5, .scale = 0});
     const LipFit fit = climb(posterior, posterior.start(truth));
     const LipPose found = posterior.pose_of(fit.theta);
     const auto places = [&](const LipPose& pose, const Eigen::VectorXd& p) {
-        return project(scene.how.camera, pose, as_lip_nodes(lip_shape(learned().model, p))).pixels;
+        return project(scene.how.camera, pose, as_lip_nodes(lip_shape(test::learned_to_track().model, p)))
+            .pixels;
     };
     const Pixels right = places(scene.pose, truth);
     const auto off = [&](const Pixels& pixels) {

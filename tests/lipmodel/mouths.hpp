@@ -59,9 +59,11 @@ inline Eigen::MatrixXd speaking_mouth(int frames) {
 }
 
 struct Learned {
+    int kept = 10;
+    double noise_mm = 0.001;
     Eigen::MatrixXd frames = speaking_mouth(300);
     LipBody body = lip_body(resting_mouth());
-    LipModel model = learn_lips(body, frames, {.modes = 10, .noise_mm = 0.001});
+    LipModel model = learn_lips(body, frames, {.modes = kept, .noise_mm = noise_mm});
 };
 inline const Learned& learned() {
     static const Learned made;

@@ -10,6 +10,12 @@
 
 namespace viaface::test {
 
+// The few modes that a tracker follows.
+inline const Learned& learned_to_track() {
+    static const Learned made{5, 0.05};
+    return made;
+}
+
 struct Painting {
     int width = 200, height = 160;
     Pinhole camera{.focal_px = 800, .centre_px = {100, 80}};
