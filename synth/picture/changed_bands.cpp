@@ -36,6 +36,11 @@ Extent within(const Extent& extent, const Rect& rect) {
             std::min<float>(extent.top, rect.bottom + rect.height)};
 }
 
+Extent both(const Extent& a, const Extent& b) {
+    return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.bottom, b.bottom),
+            std::max(a.top, b.top)};
+}
+
 ChangedBands::ChangedBands(int width, int height)
     : width_(width),
       height_(height),

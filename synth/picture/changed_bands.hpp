@@ -22,6 +22,7 @@ Extent extent_of(const Rect& rect);
 bool touches(const Extent& extent, const Rect& rect);
 Rect common(const Rect& a, const Rect& b);  // empty: no width or no height
 Extent within(const Extent& extent, const Rect& rect);
+Extent both(const Extent& a, const Extent& b);  // and what is between them
 
 class ChangedBands {
   public:

@@ -105,16 +105,22 @@ class Portrait::Impl {
     }
 
     std::vector<Rect> changed(const Rect& opening) {
-        const auto mark = [&](const Layer& layer, const Extent& extent, const Rect& seen_through) {
-            if (!inside_mouth(layer.material)) return bands_.mark(extent);
-            if (touches(extent, seen_through)) bands_.mark(within(extent, seen_through));
+        const auto mark_seen = [&](const Extent& extent, const Rect& through) {
+            if (touches(extent, through)) bands_.mark(within(extent, through));
         };
         for (const Layer& layer : layers_) {
+            const bool inside = inside_mouth(layer.material);
             for (const auto& [a, b, c] : layer.triangles) {
                 if (!posed_.changed(a) && !posed_.changed(b) && !posed_.changed(c)) continue;
-                mark(layer, extent_of(posed_.pixel(a), posed_.pixel(b), posed_.pixel(c)), opening);
-                mark(layer, extent_of(posed_.kept_pixel(a), posed_.kept_pixel(b), posed_.kept_pixel(c)),
-                     kept_opening_);
+                const Extent now = extent_of(posed_.pixel(a), posed_.pixel(b), posed_.pixel(c));
+                const Extent before =
+                    extent_of(posed_.kept_pixel(a), posed_.kept_pixel(b), posed_.kept_pixel(c));
+                if (!inside) {
+                    bands_.mark(both(now, before));
+                    continue;
+                }
+                mark_seen(now, opening);
+                mark_seen(before, kept_opening_);
             }
         }
         if (opening != kept_opening_) {

@@ -39,6 +39,7 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
       key_(key_shares(face, view)),
       vertices_(face.rest.rows()),
       kept_vertices_(face.rest.rows()),
+      changed_(face.rest.rows()),
       pixels_(face.rest.rows()),
       kept_pixels_(face.rest.rows()) {}
 
@@ -65,6 +66,7 @@ void PosedVertices::pose(const Nodes& posed) {
                         {normals_(i, 0), normals_(i, 1), normals_(i, 2)},
                         light_[i],
                         key_[i]};
+        changed_[i] = vertices_[i] != kept_vertices_[i];
         const Eigen::Vector4f clip = clip_from_head_ * places_.row(i).transpose().homogeneous();
         pixels_[i] = ((clip.head<2>() / clip.w()).array() + 1)
                          .matrix()

@@ -1,6 +1,7 @@
 // The vertices of a pose as the graphics library takes them, and where each falls in the picture.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,7 @@ class PosedVertices {
         kept_vertices_.swap(vertices_);
         kept_pixels_.swap(pixels_);
     }
-    bool changed(int node) const { return vertices_[node] != kept_vertices_[node]; }
+    bool changed(int node) const { return changed_[node] != 0; }  // since the pose that was kept
     const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }
 
   private:
@@ -46,6 +47,7 @@ class PosedVertices {
     NodesF places_, normals_;
     std::vector<float> light_, key_;
     std::vector<Vertex> vertices_, kept_vertices_;
+    std::vector<std::uint8_t> changed_;  // of each node
     std::vector<Eigen::Vector2f> pixels_, kept_pixels_;
 };
 

@@ -36,6 +36,9 @@ class StripeDrawing {
     VIAFACE_INLINE std::int32_t sample(std::int32_t x, std::int32_t y) const {
         return ((y - bounds_.bottom) * (scene_.width + 1) + x - bounds_.left) * kSamples;
     }
+    VIAFACE_INLINE std::int32_t middle_of(std::int32_t x, std::int32_t y) const {
+        return (y - bounds_.bottom) * (scene_.width + kPixelsBeyond) + x - bounds_.left;
+    }
     VIAFACE_INLINE std::int32_t pixel(std::int32_t x, std::int32_t y) const {
         return (y - bounds_.bottom) * scene_.width + x - bounds_.left;
     }
@@ -49,12 +52,38 @@ class StripeDrawing {
         return scene_.background[std::int64_t(y) * scene_.width + x];
     }
 
+    // A bit for each of the fine ones among 32 pixels.
+    VIAFACE_INLINE std::uint32_t fine(std::int32_t x, std::int32_t y) const {
+        const std::uint64_t* word = scene_.fine + std::int64_t(y) * scene_.fine_words + (x >> 6);
+        const int shift = x & 63;
+        return std::uint32_t(shift <= 32 ? word[0] >> shift : word[0] >> shift | word[1] << (64 - shift));
+    }
+
+    VIAFACE_INLINE bool any_fine(const Bounds& box) const {
+        std::uint32_t any = 0;
+        for (std::int32_t left = box.left; left < box.right; left += 32) {
+            const std::uint32_t within = ~0u >> (32 - smaller(32, box.right - left));
+            for (std::int32_t y = box.bottom; y < box.top; ++y) any |= fine(left, y) & within;
+        }
+        return any != 0;
+    }
+
     VIAFACE_INLINE void clear() {
         const std::size_t width = std::size_t(bounds_.right - bounds_.left);
         for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
-            __builtin_memset(scratch_.nearness + sample(bounds_.left, y), 0, (width + 1) * kSamples * 4);
-            __builtin_memset(scratch_.seen + sample(bounds_.left, y), 0, (width + 1) * kSamples * 4);
+            const std::int32_t middles = middle_of(bounds_.left, y);
+            __builtin_memset(scratch_.middles.nearness + middles, 0, width * 4);
+            __builtin_memset(scratch_.middles.seen + middles, 0, width * 4);
+            for (std::int32_t x = bounds_.left; x < bounds_.right; x += 32) {
+                if (fine(x, y) != 0) clear_samples(x, y, smaller(32, bounds_.right - x) + 1);
+            }
         }
+    }
+
+    VIAFACE_INLINE void clear_samples(std::int32_t x, std::int32_t y, std::int32_t pixels) {
+        const std::size_t bytes = std::size_t(pixels) * kSamples * 4;
+        __builtin_memset(scratch_.samples.nearness + sample(x, y), 0, bytes);
+        __builtin_memset(scratch_.samples.seen + sample(x, y), 0, bytes);
     }
 
     Prepared prepare(std::int32_t i) {
@@ -63,25 +92,32 @@ class StripeDrawing {
                                        facet, scratch_.surfaces[i]);
     }
 
+    static VIAFACE_INLINE void keep_nearer(const Front& front, std::ptrdiff_t at, WideInt id, WideInt outside,
+                                           Wide nearness) {
+        const auto before = load<Wide>(front.nearness + at);
+        const WideInt in_front = (outside >= 0) & (nearness > before);
+        store(front.nearness + at, in_front ? nearness : before);
+        store(front.seen + at, in_front ? id : load<WideInt>(front.seen + at));
+    }
+
     // What is in front. The first of the lashes.
     std::int32_t settle() {
-        const std::ptrdiff_t origin = sample(0, 0), row = std::ptrdiff_t(scene_.width + 1) * kSamples;
-        float* const near = scratch_.nearness;
-        std::int32_t* const seen = scratch_.seen;
+        const Front middles = scratch_.middles, samples = scratch_.samples;
         for (std::int32_t i = 0; i < stripe_.count; ++i) {
             if (scene_.facets[stripe_.facets[i]].shade == Shade::kLash) return i;
             const Prepared p = prepare(i);
             if (!p.drawn) continue;
             const WideInt id = wide(i + 1);
-            const auto keep_nearer = [=](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness)
-                __attribute__((always_inline)) {
-                const std::ptrdiff_t at = origin + y * row + std::ptrdiff_t(x) * kSamples;
-                const auto before = load<Wide>(near + at);
-                const WideInt in_front = (outside >= 0) & (nearness > before);
-                store(near + at, in_front ? nearness : before);
-                store(seen + at, in_front ? id : load<WideInt>(seen + at));
-            };
-            for_pairs(p, scratch_.surfaces[i], keep_nearer);
+            for_pixels(
+                p, scratch_.surfaces[i], kMiddles, AllPixels(),
+                [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness) __attribute__((
+                    always_inline)) { keep_nearer(middles, middle_of(x, y), id, outside, nearness); });
+            if (!any_fine(p.bounds)) continue;
+            for_pixels(
+                p, scratch_.surfaces[i], kTwoPixels,
+                [&](std::int32_t x, std::int32_t y) __attribute__((always_inline)) { return fine(x, y); },
+                [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness) __attribute__((
+                    always_inline)) { keep_nearer(samples, sample(x, y), id, outside, nearness); });
         }
         return stripe_.count;
     }
@@ -89,16 +125,14 @@ class StripeDrawing {
     void resolve() {
         mixed_ = 0;
         for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
-            const std::int32_t* seen = scratch_.seen + sample(bounds_.left, y);
-            for (std::int32_t x = bounds_.left; x < bounds_.right; ++x, seen += kSamples) {
-                if ((seen[0] ^ seen[1]) | (seen[0] ^ seen[2]) | (seen[0] ^ seen[3])) {
-                    alone(x, y) = 0;
-                    resolve_mixed(x, y, seen);
-                } else if (seen[0] != 0) {
-                    resolve_alone(x, y, seen[0] - 1);
-                } else {
-                    alone(x, y) = 0;
-                    rgba(x, y) = background(x, y);
+            for (std::int32_t x = bounds_.left; x < bounds_.right; x += 32) {
+                std::uint32_t fine_ones = fine(x, y);
+                const std::int32_t end = smaller(x + 32, bounds_.right);
+                for (std::int32_t at = x; at < end; ++at, fine_ones >>= 1) {
+                    if (fine_ones & 1)
+                        resolve_fine(at, y);
+                    else
+                        resolve_alone(at, y, scratch_.middles.seen[middle_of(at, y)]);
                 }
             }
         }
@@ -113,12 +147,25 @@ class StripeDrawing {
         }
     }
 
-    VIAFACE_INLINE void resolve_alone(std::int32_t x, std::int32_t y, std::int32_t surface) {
-        const std::uint32_t facet = stripe_.facets[surface];
+    VIAFACE_INLINE void resolve_fine(std::int32_t x, std::int32_t y) {
+        const std::int32_t* seen = scratch_.samples.seen + sample(x, y);
+        if (((seen[0] ^ seen[1]) | (seen[0] ^ seen[2]) | (seen[0] ^ seen[3])) == 0)
+            return resolve_alone(x, y, seen[0]);
+        alone(x, y) = 0;
+        resolve_mixed(x, y, seen);
+    }
+
+    VIAFACE_INLINE void resolve_alone(std::int32_t x, std::int32_t y, std::int32_t id) {
         std::uint32_t& before = alone(x, y);
+        if (id == 0) {
+            before = 0;
+            rgba(x, y) = background(x, y);
+            return;
+        }
+        const std::uint32_t facet = stripe_.facets[id - 1];
         if (before == facet + 1 && scene_.still[facet] != 0) return;
         before = facet + 1;
-        push({x, y, surface, kSamples});
+        push({x, y, id - 1, kSamples});
     }
 
     static constexpr std::uint32_t kOne = 1 | 1 << 10 | 1 << 20, kOpaque = 255u << 24;
@@ -132,7 +179,7 @@ class StripeDrawing {
     __attribute__((noinline)) void resolve_mixed(std::int32_t x, std::int32_t y,
                                                  const std::int32_t* samples) {
         const auto seen = load<FourInt>(samples);
-        const auto near = load<Four>(scratch_.nearness + (samples - scratch_.seen));
+        const auto near = load<Four>(scratch_.samples.nearness + (samples - scratch_.samples.seen));
         Four planes[kSamples];
         for (int i = 0; i < kSamples; ++i) planes[i] = load<Four>(plane_of(larger(samples[i], 1)));
         transpose(planes);
@@ -223,11 +270,11 @@ class StripeDrawing {
         for (std::int32_t i = first; i < stripe_.count; ++i) {
             const Prepared p = prepare(i);
             if (!p.drawn) continue;
-            for_pairs(
-                p, scratch_.surfaces[i],
+            for_pixels(
+                p, scratch_.surfaces[i], kTwoPixels, AllPixels(),
                 [&](std::int32_t x, std::int32_t y, WideInt outside,
                     Wide nearness) __attribute__((always_inline)) {
-                    const Wide before = load<Wide>(scratch_.nearness + sample(x, y));
+                    const Wide before = load<Wide>(scratch_.samples.nearness + sample(x, y));
                     const unsigned lanes = negative_lanes((outside >= 0) & (nearness > before));
                     const int here = __builtin_popcount(lanes & 15), next = __builtin_popcount(lanes >> 4);
                     if (here != 0) push({x, y, i, here});

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "synth/picture/background.hpp"
+#include "synth/picture/fine_pixels.hpp"
 #include "synth/picture/layers.hpp"
 #include "synth/picture/painter.hpp"
 #include "synth/picture/raster_scene.hpp"
@@ -62,23 +63,30 @@ raster::DrawStripe kernel_of(Instructions instructions) {
     return raster::baseline::draw_stripe;
 }
 
-// Buffers of one thread.
-struct Workspace {
+struct FrontBuffers {
     std::vector<float> nearness;
     std::vector<std::int32_t> seen;
+
+    explicit FrontBuffers(std::size_t places) : nearness(places), seen(places) {}
+    raster::Front front() { return {nearness.data(), seen.data()}; }
+};
+
+// Buffers of one thread.
+struct Workspace {
+    FrontBuffers middles, samples;
     std::vector<std::uint32_t> sums;
     std::vector<raster::Fragment> mixed;
     std::vector<raster::Surface> surfaces;
 
     explicit Workspace(int width)
-        : nearness(std::size_t(width + 1) * raster::kStripeRows * raster::kSamples),
-          seen(nearness.size()),
+        : middles(std::size_t(width + raster::kPixelsBeyond) * raster::kStripeRows),
+          samples(std::size_t(width + 1) * raster::kStripeRows * raster::kSamples),
           sums(std::size_t(width) * raster::kStripeRows),
           mixed(sums.size()) {}
 
     raster::Scratch scratch(std::size_t facets) {
         if (surfaces.size() < facets) surfaces.resize(facets);
-        return {nearness.data(), seen.data(), sums.data(), mixed.data(), surfaces.data()};
+        return {middles.front(), samples.front(), sums.data(), mixed.data(), surfaces.data()};
     }
 };
 
@@ -96,11 +104,14 @@ class RasterPainter : public Painter {
           far_(static_cast<float>(1 / camera_.place.z())),
           facets_(facets_of(face)),
           lash_(face.rest.rows(), false),
+          placed_(face.rest.rows()),
           places_(face.rest.rows()),
           nodes_(face.rest.rows()),
           background_(std::size_t(view.width) * view.height),
           alone_(background_.size()),
           still_(facets_.size()),
+          turned_to_us_(facets_.size()),
+          fine_(facets_, face.weld, view.width, view.height),
           draw_stripe_(kernel_of(drawing.instructions)),
           pool_(std::max(1, drawing.threads)),
           rows_((view.height + raster::kStripeRows - 1) / raster::kStripeRows) {
@@ -123,6 +134,8 @@ class RasterPainter : public Painter {
         scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
         scene.opening = {opening.left, opening.bottom, opening.left + opening.width,
                          opening.bottom + opening.height};
+        find_turned();
+        fine_.find(places_, turned_to_us_, scene.opening);
         const int count = list_stripes(rects, scene.opening);
         pool_.share(count, [&](int item, int thread) {
             const StripeList& list = stripes_[item];
@@ -165,6 +178,8 @@ class RasterPainter : public Painter {
         scene_.background = background_.data();
         scene_.alone = alone_.data();
         scene_.still = still_.data();
+        scene_.fine = fine_.bits().data();
+        scene_.fine_words = fine_.words();
         scene_.width = width_;
         const auto share = static_cast<float>(pixel_size(view) / camera_.place.norm());
         scene_.fold = kFold * share;
@@ -195,6 +210,8 @@ class RasterPainter : public Painter {
         const auto vertices = posed.vertices();
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Vertex& v = vertices[i];
+            if (v == placed_[i]) continue;
+            placed_[i] = v;
             Vector3f world = turn * Vector3f(v.place) + shift;
             if (lash_[i]) world += kLashesBefore * (eye - world).normalized();
             const Eigen::Vector4f clip = clip_from_world * world.homogeneous();
@@ -241,13 +258,8 @@ class RasterPainter : public Painter {
 
     void list_facets(const Bounds& opening) {
         for (std::uint32_t i = 0; i < facets_.size(); ++i) {
-            const raster::Facet& facet = facets_[i];
-            const raster::Place &a = places_[facet.node[0]], &b = places_[facet.node[1]],
-                                &c = places_[facet.node[2]];
-            if (a.nearness == 0 || b.nearness == 0 || c.nearness == 0) continue;
-            if (!facet.two_sided && turned_away(a, b, c)) continue;
-            Bounds box = raster::box_of(a, b, c);
-            if (facet.inside) box = raster::common(box, opening);
+            if (!turned_to_us_[i]) continue;
+            const Bounds box = box_of(facets_[i], opening);
             const int first = std::max(0, box.bottom) / raster::kStripeRows;
             const int last = std::min(height_, box.top) - 1;
             for (int row = first; row * raster::kStripeRows <= last; ++row) {
@@ -256,6 +268,21 @@ class RasterPainter : public Painter {
                     if (box.left < seen.right && box.right > seen.left) stripes_[stripe].facets.push_back(i);
                 }
             }
+        }
+    }
+
+    Bounds box_of(const raster::Facet& facet, const Bounds& opening) const {
+        const auto& [a, b, c] = facet.node;
+        const Bounds box = raster::box_of(places_[a], places_[b], places_[c]);
+        return facet.inside ? raster::common(box, opening) : box;
+    }
+
+    void find_turned() {
+        for (std::size_t i = 0; i < facets_.size(); ++i) {
+            const raster::Place &a = places_[facets_[i].node[0]], &b = places_[facets_[i].node[1]],
+                                &c = places_[facets_[i].node[2]];
+            turned_to_us_[i] = a.nearness != 0 && b.nearness != 0 && c.nearness != 0 &&
+                               (facets_[i].two_sided || !turned_away(a, b, c));
         }
     }
 
@@ -269,13 +296,16 @@ class RasterPainter : public Painter {
     std::vector<raster::Facet> facets_;
     std::vector<bool> lash_;  // of each node
     Tangents tangents_;
+    std::vector<Vertex> placed_;  // what places_ and nodes_ stand for
     std::vector<raster::Place> places_;
     std::vector<raster::Node> nodes_;
     std::vector<RasterTextures> textures_;
     std::vector<raster::Mipmap> mipmaps_;
     std::vector<std::uint32_t> background_;
-    std::vector<std::uint32_t> alone_;  // of each pixel, as in Scene
-    std::vector<std::uint8_t> still_;   // of each facet
+    std::vector<std::uint32_t> alone_;        // of each pixel, as in Scene
+    std::vector<std::uint8_t> still_;         // of each facet
+    std::vector<std::uint8_t> turned_to_us_;  // of each facet: 1 where it may be seen
+    FinePixels fine_;
     raster::Scene scene_{};
     raster::DrawStripe draw_stripe_;
     StripePool pool_;

@@ -2,14 +2,14 @@
 // instruction set and may share no inline function with the rest of the program but those that are always
 // inlined.
 //
-// A stripe of rows is drawn in three steps. Triangles first settle, for four samples per pixel, what is in
-// front (a visibility buffer: C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach
-// to deferred shading", JCGT 2(2), 2013). Then each pixel is shaded once for every surface that its samples
-// see, eight fragments at a time, but for pixels that hold one triangle alone, now and before, which has not
-// moved: they keep their colour; triangles that continue each other count as one surface, so that most
-// pixels are shaded once and edges are as smooth as with multisampling. Last come the lashes, blended in
-// their order. Departures: no clipping; a triangle with a corner outside kGuard or behind the camera is not
-// drawn.
+// A stripe of rows is drawn in three steps. Triangles first settle what is in front (a visibility buffer:
+// C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach to deferred shading", JCGT
+// 2(2), 2013): in the middle of each pixel, and at four samples of the fine pixels, in which more than one
+// surface may be seen (FinePixels). Then each pixel is shaded once for every surface that it sees, eight
+// fragments at a time, but for pixels that hold one triangle alone, now and before, which has not moved:
+// they keep their colour. Of fine pixels, triangles that continue each other count as one surface, so that
+// edges are as smooth as with multisampling. Last come the lashes, blended in their order. Departures: no
+// clipping; a triangle with a corner outside kGuard or behind the camera is not drawn.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,7 @@ inline constexpr int kSamples = 4;
 inline constexpr int kSteps = 128;   // per pixel: the grid on which corners lie, so that edges are exact
 inline constexpr int kGuard = 8192;  // pixels from the middle of the picture, either way
 inline constexpr int kLevels = 13;
+inline constexpr int kPixelsBeyond = 7;  // the last of eight pixels at a time may lie outside the picture
 
 struct Place {
     std::int32_t x, y;  // 1/kSteps pixel from the lower left corner
@@ -99,6 +100,8 @@ struct Scene {
     std::uint32_t* rgba;
     std::uint32_t* alone;       // of each pixel: 1 + the facet that is all there was when it was drawn, or 0
     const std::uint8_t* still;  // of each facet: 1 where it is as it was when the picture was drawn
+    const std::uint64_t* fine;  // [height x fine_words], a bit for each pixel
+    std::int32_t fine_words;    // of a row
     std::int32_t width;         // of the picture, pixels
     float to_camera[3][3];      // world: at pixel (0, 0), per pixel to the right, per pixel up; any length
     float fold, step;           // surfaces part where slopes differ by `fold` or heights by `step`, both as a
@@ -128,10 +131,16 @@ struct Stripe {
     std::int32_t count;
 };
 
-// For one thread. Widths are those of the picture and one pixel.
+// What is in front: of each place its nearness, and 1 + the surface, or 0 for the background.
+struct Front {
+    float* nearness;
+    std::int32_t* seen;
+};
+
+// For one thread.
 struct Scratch {
-    float* nearness;      // [kStripeRows x (width + 1) x kSamples]
-    std::int32_t* seen;   // the same: 1 + surface, 0 for the background
+    Front middles;        // [kStripeRows x (width + kPixelsBeyond)]
+    Front samples;        // [kStripeRows x (width + 1) x kSamples], of fine pixels
     std::uint32_t* sums;  // [kStripeRows x width], 10 bits each for red, green, blue
     Fragment* mixed;      // [kStripeRows x width]
     Surface* surfaces;    // as many as facets

@@ -11,9 +11,15 @@ namespace {
 constexpr std::int64_t kEighth = kSteps / 8;
 constexpr int kBlock = 16;  // pixels: edge functions stay within 32 bits
 
-// Two pixels' samples fill a vector: places from the first pixel's middle, in eighths of a pixel.
-constexpr WideInt kRightEighths = {-1, 3, -3, 1, 7, 11, 5, 9};
-constexpr WideInt kUpEighths = {-3, -1, 1, 3, -3, -1, 1, 3};
+// Places of the lanes of a vector, in eighths of a pixel from the first pixel's middle.
+struct Lanes {
+    WideInt right, up;
+    WideInt pixel;  // after the first
+    std::int32_t pixels;
+};
+constexpr Lanes kMiddles = {{0, 8, 16, 24, 32, 40, 48, 56}, {}, {0, 1, 2, 3, 4, 5, 6, 7}, 8};
+constexpr Lanes kTwoPixels = {
+    {-1, 3, -3, 1, 7, 11, 5, 9}, {-3, -1, 1, 3, -3, -1, 1, 3}, {0, 0, 0, 0, 1, 1, 1, 1}, 2};
 
 // Positive on the left of the way from `a` to `b`, on the grid.
 struct Edge {
@@ -91,46 +97,55 @@ VIAFACE_INLINE Prepared prepare(const Scene& scene, const Bounds& seen, const Fa
     return p;
 }
 
-// An edge function at the samples of two pixels of a block, in steps of an eighth of a pixel: its sign is
-// that of the exact function.
+// An edge function at the lanes' places, in steps of an eighth of a pixel: its sign is that of the exact
+// function.
 struct BlockEdge {
     WideInt at, right, up;
 
-    VIAFACE_INLINE BlockEdge(const Edge& edge, std::int64_t x, std::int64_t y) {
+    VIAFACE_INLINE BlockEdge(const Edge& edge, const Lanes& lanes, std::int64_t x, std::int64_t y) {
         const std::int64_t exact = (edge.at(middle(x), middle(y)) - !edge.owns()) >> 4;
         constexpr std::int64_t kFar = 1 << 30;
         const auto first = std::int32_t(smaller(larger(exact, -kFar), kFar));
         const auto to_right = std::int32_t(edge.right), to_up = std::int32_t(edge.up);
-        at = wide(first) + kRightEighths * to_right + kUpEighths * to_up;
-        right = wide(16 * to_right);
+        at = wide(first) + lanes.right * to_right + lanes.up * to_up;
+        right = wide(8 * lanes.pixels * to_right);
         up = wide(8 * to_up);
     }
 };
 static_assert(kEighth == 1 << 4);
 
-// Calls visit(x, y, outside, nearness) for pairs of pixels that hold a sample within the triangle; `outside`
-// is below zero in the lanes of other samples.
-template <class Visit>
-VIAFACE_INLINE void for_pairs(const Prepared& p, const Surface& s, const Visit& visit) {
-    constexpr WideInt kPixel = {0, 0, 0, 0, 1, 1, 1, 1};
-    const Wide sample_right = __builtin_convertvector(kRightEighths, Wide) * 0.125f - s.x;
-    const Wide sample_up = __builtin_convertvector(kUpEighths, Wide) * 0.125f - s.y;
+struct AllPixels {
+    VIAFACE_INLINE std::uint32_t operator()(std::int32_t, std::int32_t) const { return ~0u; }
+};
+
+// Calls visit(x, y, outside, nearness) for vectors of pixels that hold a place within the triangle; `outside`
+// is below zero in the lanes of other places. Pixels without a bit in wanted(x, y), the first of which
+// stands for pixel x, may be passed over.
+template <class Wanted, class Visit>
+VIAFACE_INLINE void for_pixels(const Prepared& p, const Surface& s, const Lanes& lanes, const Wanted& wanted,
+                               const Visit& visit) {
+    const Wide lane_right = __builtin_convertvector(lanes.right, Wide) * 0.125f - s.x;
+    const Wide lane_up = __builtin_convertvector(lanes.up, Wide) * 0.125f - s.y;
     const Wide slope = wide(s.nearness_right);
+    const std::uint32_t these = (1u << lanes.pixels) - 1;
     for (std::int32_t block = p.bounds.left; block < p.bounds.right; block += kBlock) {
         const std::int32_t end = smaller(block + kBlock, p.bounds.right);
-        BlockEdge e0(p.edges[0], block, p.bounds.bottom), e1(p.edges[1], block, p.bounds.bottom),
-            e2(p.edges[2], block, p.bounds.bottom);
-        const Wide first_right = sample_right + float(block);
-        const WideInt first_room = end - 1 - block - kPixel;
+        BlockEdge e0(p.edges[0], lanes, block, p.bounds.bottom),
+            e1(p.edges[1], lanes, block, p.bounds.bottom), e2(p.edges[2], lanes, block, p.bounds.bottom);
+        const Wide first_right = lane_right + float(block);
+        const WideInt first_room = end - 1 - block - lanes.pixel;
         for (std::int32_t y = p.bounds.bottom; y < p.bounds.top; ++y) {
+            std::uint32_t left = wanted(block, y);
             WideInt a = e0.at, b = e1.at, c = e2.at, room = first_room;
             Wide right = first_right;
-            const Wide row = s.nearness_up * (sample_up + float(y)) + s.nearness;
-            for (std::int32_t x = block; x < end; x += 2) {
+            const Wide row = s.nearness_up * (lane_up + float(y)) + s.nearness;
+            for (std::int32_t x = block; x < end && left != 0; x += lanes.pixels) {
                 const WideInt outside = a | b | c | room;
-                if (negative_lanes(outside) != 0xff) visit(x, y, outside, row + slope * right);
+                if ((left & these) != 0 && negative_lanes(outside) != 0xff)
+                    visit(x, y, outside, row + slope * right);
                 a += e0.right, b += e1.right, c += e2.right;
-                room -= 2, right += 2.0f;
+                room -= lanes.pixels, right += float(lanes.pixels);
+                left >>= lanes.pixels;
             }
             e0.at += e0.up, e1.at += e1.up, e2.at += e2.up;
         }

@@ -1,0 +1,44 @@
+// Pixels in which more than one surface may be seen, so that they take several samples: those near an outline
+// of the skin, that is an edge whose other triangle is missing or turned away, and all that any other
+// material may cover, the lips included, as those run into each other and into the skin.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "synth/picture/raster_scene.hpp"
+
+namespace viaface {
+
+class FinePixels {
+  public:
+    // `weld` gives for each node the one that stands for all at its place.
+    FinePixels(std::span<const raster::Facet> facets, std::span<const int> weld, int width, int height);
+
+    // `seen` is 1 for facets that may be seen; what is inside the mouth is seen through `opening` alone.
+    void find(std::span<const raster::Place> places, std::span<const std::uint8_t> seen,
+              const raster::Bounds& opening);
+
+    // [height x words], a bit for each pixel, the lowest first; one word is over in each row.
+    const std::vector<std::uint64_t>& bits() const { return bits_; }
+    int words() const { return words_; }
+
+  private:
+    static constexpr int kNone = -1;
+    struct Edge {
+        int from, to;               // nodes of the first facet
+        std::array<int, 2> facets;  // the second may be kNone
+    };
+
+    void mark_outline(const raster::Place& a, const raster::Place& b);
+    void mark(const raster::Bounds& box);
+
+    std::span<const raster::Facet> facets_;
+    std::vector<Edge> edges_;
+    std::vector<int> covering_;  // facets all of whose pixels are fine
+    int width_, height_, words_;
+    std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace viaface
