@@ -107,7 +107,7 @@ json health() {
 json voices() {
     return closed({{"voices", list(closed({{"name", {{"type", "string"}, {"enum", FliteVoice::names()}}},
                                            {"language", text("BCP 47")}}))},
-                   {"default", text("the voice of requests that name none")}});
+                   {"default", text("the voice of talkers that have none of their own")}});
 }
 
 // A talker's own description may say more.
@@ -116,6 +116,7 @@ json talker() {
             {"properties",
              {{"name", text("for requests")},
               {"summary", text("who it is")},
+              {"voice", text("who is heard in requests that name no voice")},
               {"language", text("BCP 47")},
               {"licence", text()},
               {"notice", text()},

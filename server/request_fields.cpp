@@ -22,12 +22,17 @@ json text(const std::string& description, std::size_t longest) {
     return {{"type", "string"}, {"description", description}, {"minLength", 1}, {"maxLength", longest}};
 }
 
-json one_of(const std::string& description, const std::vector<std::string>& names,
-            std::string_view standard) {
+json one_of(const std::string& description, const std::vector<std::string>& names) {
     std::string allowed;
     for (const auto& name : names) allowed += (allowed.empty() ? ": " : ", ") + name;
-    return {
-        {"type", "string"}, {"description", description + allowed}, {"enum", names}, {"default", standard}};
+    return {{"type", "string"}, {"description", description + allowed}, {"enum", names}};
+}
+
+json one_of(const std::string& description, const std::vector<std::string>& names,
+            std::string_view standard) {
+    json field = one_of(description, names);
+    field["default"] = standard;
+    return field;
 }
 
 json number(const std::string& description, double least, double most, double standard) {
@@ -80,7 +85,7 @@ json speech_fields() {
             " phones, ", kLongestPhones / 1000, " s in all"),
         kLongestText);
     fields["phones"]["examples"] = {"ax b:90 aa1:220"};
-    fields["voice"] = one_of("who is heard", FliteVoice::names(), standard.voice);
+    fields["voice"] = one_of("who is heard, when absent the talker's own voice", FliteVoice::names());
     fields["rate"] = number("speaking rate, " + factor, kLeast, kMost, standard.prosody.rate);
     fields["pitch"] = number("pitch, " + factor, kLeast, kMost, standard.prosody.pitch);
     fields["talker"] = {{"type", "string"}, {"description", "a talker's name"}, {"default", kDefaultTalker}};

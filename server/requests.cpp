@@ -28,7 +28,8 @@ void read_speech(JsonFields& fields, VideoRequest& request) {
     take(fields.text("phones"), speech.phones);
     if (fields.has("phones") && (fields.has("text") || speech.phones.empty()))
         throw InputError("phones", speech.phones, "one of text and phones, not empty");
-    take(fields.text("voice"), speech.voice);
+    request.voice = fields.text("voice");
+    take(request.voice, speech.voice);
     take(fields.number("rate"), speech.prosody.rate);
     take(fields.number("pitch"), speech.prosody.pitch);
     take(fields.text("talker"), request.talker);
@@ -62,6 +63,11 @@ FilmFormat stream_format(const std::string& name) {
 }
 
 }  // namespace
+
+void settle_voice(VideoRequest& request, const Talker& talker) {
+    request.say.speech.voice =
+        request.voice.value_or(talker.description.value("voice", std::string(kDefaultVoice)));
+}
 
 FilmSpec film_of(const VideoRequest& request) {
     const View& view = request.say.view;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "synth/say/say.hpp"
+#include "synth/talker/talker.hpp"
 
 namespace viaface {
 
@@ -20,7 +22,11 @@ struct VideoRequest {
     SayRequest say;
     FilmFormat format = FilmFormat::kMp4;
     std::string talker = kDefaultTalker;
+    std::optional<std::string> voice;  // none: the talker's own
 };
+
+// The voice asked for, or the talker's own, is who is heard.
+void settle_voice(VideoRequest& request, const Talker& talker);
 
 FilmSpec film_of(const VideoRequest& request);
 

@@ -135,8 +135,9 @@ void complete(SayOptions& options) {
 
 int run_say(SayOptions& options) {
     complete(options);
-    const Script checked(options.request.say.speech);
     const auto talker = talker_at(options.request.talker);
+    settle_voice(options.request, *talker);
+    const Script checked(options.request.say.speech);
     SideFiles beside(options);
     const auto film = film_for(options);
     Onlookers onlookers;
@@ -162,7 +163,7 @@ Command add_say(CLI::App& program) {
     app->add_option("-o,--output", options->output,
                     "x.mp4, lossless x.mkv, a folder for PNG files, or - for fragmented MP4 on stdout")
         ->capture_default_str();
-    app->add_option("--voice", speech.voice, description_of("voice"))->capture_default_str();
+    app->add_option("--voice", options->request.voice, description_of("voice"));
     app->add_option("--rate", speech.prosody.rate, description_of("rate"))->capture_default_str();
     app->add_option("--pitch", speech.prosody.pitch, description_of("pitch"))->capture_default_str();
     app->add_option("--talker", options->request.talker,

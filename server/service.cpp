@@ -173,8 +173,9 @@ class Service::Routes {
                 job->moving = streamed_motion(via_body(request, reader), *job->talker, models_);
             } else {
                 job->request = video_request_of(json_body(request, reader));
-                const Script checked(job->request.say.speech);
                 job->talker = shelf_.load(job->request.talker);
+                settle_voice(job->request, *job->talker);
+                const Script checked(job->request.say.speech);
             }
             job->place = admission_.reserve();
             response.status = 200;
@@ -183,9 +184,10 @@ class Service::Routes {
                 [this, job](std::size_t, httplib::DataSink& client) { return stream(*job, client); });
         });
         post("/v1/viapoints", [this](const auto& request, auto& response, const auto& reader) {
-            const VideoRequest asked = viapoints_request_of(json_body(request, reader));
-            const Script script(asked.say.speech);
+            VideoRequest asked = viapoints_request_of(json_body(request, reader));
             const auto talker = shelf_.load(asked.talker);
+            settle_voice(asked, *talker);
+            const Script script(asked.say.speech);
             const auto place = admission_.reserve();
             if (!place->wait_for_turn([this] { return !stopping_; }))
                 throw HttpError(503, "Service Unavailable", "the service stops");

@@ -47,7 +47,7 @@ int run_beside(const char* name, std::vector<std::string> arguments) {
 Command add_talker(CLI::App& program) {
     struct Options {
         std::string sheet_of, sheet;
-        std::string scans = "../shared/data/ict_facekit", output;
+        std::string scans = "../shared/data/ict_facekit", output, person;
         CLI::App *list = nullptr, *make = nullptr, *sheet_command = nullptr;
     };
     auto options = std::make_shared<Options>();
@@ -56,12 +56,14 @@ Command add_talker(CLI::App& program) {
     options->list = app->add_subcommand("list", "The built-in talkers.");
     options->make = app->add_subcommand(
         "make",
-        "Makes a talker: of a scan, with the built-in talker's motion, or, from a blend-shape head, the "
+        "Makes a talker: of a scan, with a built-in talker's motion, or, from a blend-shape head, a "
         "built-in talker again with its performed recitations.");
     options->make->add_option("folder,--scans", options->scans, "folder of scans, or of the blend-shape head")
         ->capture_default_str();
     options->make->add_option("-o,--output", options->output,
-                              "the talker's folder (default: the built-in momo)");
+                              "the talker's folder (default: the built-in talker's own)");
+    options->make->add_option("--person", options->person,
+                              "which built-in talker to make again (default: momo)");
     options->sheet_command = app->add_subcommand(
         "sheet", "Writes a contact sheet: what the talker looks like at rest, in speech and from the side.");
     options->sheet_command
@@ -73,12 +75,16 @@ Command add_talker(CLI::App& program) {
         if (options->list->parsed()) return list_talkers();
         if (options->sheet_command->parsed()) return write_sheet(options->sheet_of, options->sheet);
         const bool blend_head = std::filesystem::exists(options->scans + "/generic_neutral_mesh.obj");
-        const std::string built_in = (talkers_folder() / "momo").string();
+        const bool named = !options->person.empty();
+        const std::string person = named ? options->person : "momo";
+        const std::string built_in = (talkers_folder() / person).string();
         if (!blend_head && options->output.empty())
             throw InputError("--output", "", "a folder for the talker that is made of the scan");
+        if (!blend_head && named)
+            throw InputError("--person", person, "none: a talker of a scan has the scan's face");
         if (!blend_head) return run_beside("viaface_adapt", {options->scans, options->output, built_in});
-        return run_beside("viaface_train",
-                          {"make", options->scans, options->output.empty() ? built_in : options->output});
+        const std::string output = options->output.empty() ? built_in : options->output;
+        return run_beside("viaface_train", {"make", options->scans, output, person});
     };
 }
 

@@ -191,6 +191,13 @@ async function start() {
     const [voices, talkers] = await Promise.all(["/v1/voices", "/v1/talkers"].map(async (path) => (await ask(path)).json()));
     fill($("voice"), voices.voices.map((voice) => voice.name), voices.default);
     fill($("talker"), talkers.talkers.map((talker) => talker.name), talkers.default);
+    const takeOwnVoice = () => {
+      const talker = talkers.talkers.find(({ name }) => name === $("talker").value);
+      $("voice").value = talker.voice ?? voices.default;
+      $("talker").title = talker.summary;
+    };
+    $("talker").addEventListener("change", takeOwnVoice);
+    takeOwnVoice();
     $("request").addEventListener("submit", speak);
     $("stop").addEventListener("click", stop);
     $("text").addEventListener("keydown", (event) => {

@@ -13,6 +13,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFaceLike = 4;  // mm: farther off it is no face
+constexpr const char* kTurnedRound =
+    "triangles face inwards: turned round, left stays left (a mirror image needs \"mirrored\" in scans.json)";
 
 [[noreturn]] void refuse(const std::string& value, const std::string& allowed) {
     throw InputError("scans", value, allowed);
@@ -28,6 +30,19 @@ void turn_round(ScanMesh& mesh) {
     for (auto* triangles : {&mesh.triangles, &mesh.uv_triangles}) {
         for (Triangle& t : *triangles) std::swap(t[1], t[2]);
     }
+}
+
+// Left and right exchanged, along the axis that is stated to be theirs, or any.
+ScanFolder mirrored_back(ScanFolder scans) {
+    const Vector3d across = scans.view_from_scan ? Vector3d(scans.view_from_scan->row(0)) : Vector3d::UnitX();
+    const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * across * across.transpose();
+    ScanMesh& mesh = scans.postures.at("neutral").mesh;
+    turn_round(mesh);
+    mesh.nodes *= mirror;
+    for (auto& [name, place] : scans.landmarks) place = mirror * place;
+    scans.mirrored = false;
+    scans.remarks.push_back("mirrored back, as scans.json says");
+    return scans;
 }
 
 Similarity then(const Similarity& first, const Similarity& second) {
@@ -132,7 +147,7 @@ Similarity aligned_with(const GenericHead& generic, const ScanFolder& scans, Pai
             chosen = k;
         }
         if (best.off < 2 * kFaceLike) {
-            if (turned) head.remarks.push_back("triangles face inwards: turned round");
+            if (turned) head.remarks.push_back(kTurnedRound);
             break;
         }
     }
@@ -318,14 +333,10 @@ void weld_nodes(const Face& face, Nodes& nodes) {
 }  // namespace
 
 AdaptedHead adapt_head(const GenericHead& generic, const ScanFolder& scans) {
+    if (scans.mirrored) return adapt_head(generic, mirrored_back(scans));
     AdaptedHead head;
     head.remarks = scans.remarks;
     head.scan = scans.postures.at("neutral");
-    if (scans.mirrored) {
-        turn_round(head.scan.mesh);
-        head.scan.mesh.nodes.col(0) *= -1;
-        head.remarks.push_back("mirrored back, as scans.json says");
-    }
     const Nodes upright = head.scan.mesh.nodes;
     head.from_scan = aligned_with(generic, scans, head.scan, head);
     head.scan.mesh.nodes = head.from_scan.carried(upright);

@@ -75,6 +75,8 @@ nlohmann::json description(const std::string& name, const AdaptedHead& head, con
 }
 
 int make(const fs::path& folder, const fs::path& output, const fs::path& lender_folder) {
+    const fs::path place = fs::absolute(output / "").lexically_normal().parent_path();
+    WholeFolder made(place);
     const ScanFolder scans = read_scan_folder(folder);
     const GenericHead lender = generic_head(lender_folder);
     const AdaptedHead head = adapt_head(lender, scans);
@@ -84,13 +86,13 @@ int make(const fs::path& folder, const fs::path& output, const fs::path& lender_
     std::fprintf(stderr, "viaface: modes, teeth, tongue, eyes, lids and motion are borrowed from %s\n",
                  lender_folder.filename().c_str());
     paint_from_scan(head, lender, talker);
-    fs::create_directories(output);
-    write_whole(output / "face.glb", write_glb(talker.face, "as the scan's"));
-    write_whole(output / "estimators.bin", write_training(talker.training));
-    write_whole(output / "codex.via", write_codex(talker.codex));
-    const std::string name = fs::absolute(output).lexically_normal().filename().string();
-    write_whole(output / "talker.json",
+    write_whole(made.path() / "face.glb", write_glb(talker.face, "as the scan's"));
+    write_whole(made.path() / "estimators.bin", write_training(talker.training));
+    write_whole(made.path() / "codex.via", write_codex(talker.codex));
+    const std::string name = place.filename().string();
+    write_whole(made.path() / "talker.json",
                 std::string_view(description(name, head, scans, talker).dump(2) + "\n"));
+    made.commit();
     return 0;
 }
 

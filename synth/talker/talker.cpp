@@ -21,6 +21,7 @@ nlohmann::json read_talker_json(const fs::path& folder) {
         auto description = nlohmann::json::parse(read_text(file, "talker"));
         description.at("name").get_ref<const std::string&>();
         description.at("provenance").at("motion").get_ref<const std::string&>();
+        if (description.contains("voice")) description.at("voice").get_ref<const std::string&>();
         return description;
     } catch (const nlohmann::json::exception& error) {
         throw InputError("talker", file.string(),

@@ -96,12 +96,14 @@ struct Recipe {
     HeightAt height;  // none: a smooth surface
 };
 
-std::vector<Recipe> recipes(const Face& face, const SkinPaint& skin, const EyeLids& lids) {
+std::vector<Recipe> recipes(const Face& canvas, const SkinPaint& skin, const EyeLids& lids,
+                            const Looks& looks) {
     const PaintAt skin_paint = [&](const Texel& t, float open) { return skin.at(t, open); };
     const HeightAt skin_height = [&](const Vector3f& p) { return skin.height(p); };
     const PaintAt eye = [&](const Texel& t, float) {
-        return eye_paint(t, apex(face, face.parts[t.part]), lids);
+        return eye_paint(t, apex(canvas, canvas.parts[t.part]), lids, looks);
     };
+    const PaintAt cloth = [&](const Texel& t, float) { return cloth_paint(t.place, looks.cloth); };
     return {{Material::kSkin, 1536, skin_paint, skin_height},
             {Material::kLips, 512, skin_paint, skin_height},
             {Material::kEye, 512, eye, nullptr},
@@ -110,7 +112,7 @@ std::vector<Recipe> recipes(const Face& face, const SkinPaint& skin, const EyeLi
             {Material::kTongue, 256, [](const Texel& t, float) { return tongue_paint(t); }, tongue_height},
             {Material::kMouth, 256, [](const Texel& t, float) { return lining_paint(t); }, nullptr},
             {Material::kLash, 512, [](const Texel& t, float) { return lash_paint(t); }, nullptr},
-            {Material::kCloth, 256, [](const Texel& t, float) { return cloth_paint(t.place); }, nullptr}};
+            {Material::kCloth, 256, cloth, nullptr}};
 }
 
 bool has(const Face& face, Material material) {
@@ -120,17 +122,19 @@ bool has(const Face& face, Material material) {
 
 }  // namespace
 
-void bake_surfaces(Face& face, const Landmarks& landmarks) {
+void bake_surfaces(Face& face, const Face& canvas, const Landmarks& landmarks, const Looks& looks) {
     constexpr std::size_t kLeftEye = 42;
-    const SkinPaint skin(face, landmarks);
+    const SkinPaint skin(canvas, landmarks, looks);
     EyeLids lids;
     for (std::size_t k = 0; k < lids.size(); ++k) lids[k] = landmarks[kLeftEye + k].cast<float>();
-    for (const auto& [material, side, paint, height] : recipes(face, skin, lids)) {
+    for (const auto& [material, side, paint, height] : recipes(canvas, skin, lids, looks)) {
         if (!has(face, material)) continue;
         Surface& surface = face.surfaces[static_cast<std::size_t>(material)];
-        const TexelGrid grid = lay_out(face, material, side);
-        std::vector<float> open = lit_from_outside(material) ? openness(face, casters(face, material), grid)
-                                                             : std::vector<float>(grid.texels.size(), 1.0f);
+        const TexelGrid grid = lay_out(canvas, material, side);
+        const std::vector<float> open =
+            lit_from_outside(material)
+                ? openness(face, casters(face, material), lay_out(face, material, side))
+                : std::vector<float>(grid.texels.size(), 1.0f);
         paint_surface(surface, grid, open, paint, material == Material::kLash);
         if (height) surface.normal = normal_texture(grid, height);
     }

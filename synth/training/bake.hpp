@@ -1,11 +1,13 @@
 // The talker's textures, painted once when the talker is made: every material's triangles are laid out in its
-// own texture, and each texel is painted by where on the resting face it falls. No picture of anyone is used:
+// own texture, and each texel is painted by where on the resting head without identity it falls; how open it
+// lies is the talker's own. No picture of anyone is used:
 // colours, hair, brows, stubble, irises, creases and pores are procedural, their noise seeded.
 #pragma once
 
 #include <array>
 
 #include "facemodel/face.hpp"
+#include "synth/training/looks.hpp"
 
 namespace viaface {
 
@@ -13,7 +15,8 @@ namespace viaface {
 // to 26 brows, 27 to 35 nose, 36 to 47 eyes, 48 to 67 lips.
 using Landmarks = std::array<Eigen::Vector3d, 68>;
 
-// Fills face.surfaces from face.rest, face.uvs, face.parts and the lips' outer contour.
-void bake_surfaces(Face& face, const Landmarks& landmarks);
+// Fills face.surfaces. canvas: the face of the head without identity, of the same parts and uvs; landmarks:
+// on it.
+void bake_surfaces(Face& face, const Face& canvas, const Landmarks& landmarks, const Looks& looks = {});
 
 }  // namespace viaface

@@ -11,12 +11,12 @@ using Eigen::Vector3f;
 
 constexpr float kIris = 5.7f, kPupil = 2.0f;  // mm, radii
 
-Vector3f iris(const Vector2f& from_middle, float share) {
+Vector3f iris(const Vector2f& from_middle, float share, const Looks& looks) {
     const float angle = std::atan2(from_middle.y(), from_middle.x()), c = std::cos(angle),
                 s = std::sin(angle);
     const float fibres = 0.75f * fractal(Vector3f(c * 7, s * 7, share * 1.6f)) +
                          0.45f * noise(Vector3f(c * 20, s * 20, share * 2));
-    const Vector3f inner = linear_from_srgb(122, 86, 50), outer = linear_from_srgb(84, 88, 74);
+    const Vector3f inner = linear_from(looks.iris_inner), outer = linear_from(looks.iris_outer);
     return mix(inner, outer, smooth_step(0.38f, 0.75f, share)) * (0.30f + 1.05f * fibres);
 }
 
@@ -65,11 +65,11 @@ Vector3f linear_from_srgb(float red, float green, float blue) {
     return {linear(red), linear(green), linear(blue)};
 }
 
-Paint eye_paint(const Texel& texel, const Vector3f& apex, const EyeLids& lids) {
+Paint eye_paint(const Texel& texel, const Vector3f& apex, const EyeLids& lids, const Looks& looks) {
     const Vector3f& p = texel.place;
     const Vector2f q = (p - apex).head<2>();
     const float out = q.norm(), share = out / kIris;
-    Vector3f colour = iris(q, share) * (1 - 0.92f * smooth_step(0.76f, 0.98f, share));
+    Vector3f colour = iris(q, share, looks) * (1 - 0.92f * smooth_step(0.76f, 0.98f, share));
     colour *= mix(0.015f, 1.0f, smooth_step(kPupil - 0.25f, kPupil + 0.35f, out));
     const float along = (p.x() - lids[0].x()) / (lids[3].x() - lids[0].x());  // 0 inner to 1 outer corner
     const float corners = std::max(smooth_step(0.34f, 0.04f, along), smooth_step(0.74f, 1.0f, along));
@@ -142,9 +142,9 @@ Paint lash_paint(const Texel& texel) {
     return {linear_from_srgb(24, 17, 14), 0.6f, 0, cover * ends};
 }
 
-Paint cloth_paint(const Vector3f& place) {
+Paint cloth_paint(const Vector3f& place, const Srgb& colour) {
     const float weave = noise(place.cwiseProduct(Vector3f(1.3f, 2.0f, 1.3f)));
-    return {linear_from_srgb(44, 52, 70) * (0.8f + 0.25f * weave + 0.15f * fractal(place * 0.05f)), 0.95f};
+    return {linear_from(colour) * (0.8f + 0.25f * weave + 0.15f * fractal(place * 0.05f)), 0.95f};
 }
 
 float tongue_height(const Vector3f& place) {

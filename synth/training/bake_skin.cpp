@@ -30,10 +30,11 @@ Vector3f tinted(const Vector3f& colour, const Vector3f& tint, float share) {
 
 }  // namespace
 
-SkinPaint::SkinPaint(const Face& face, const Landmarks& landmarks) {
+SkinPaint::SkinPaint(const Face& canvas, const Landmarks& landmarks, const Looks& looks)
+    : looks_(looks), creases_(landmarks, looks.complexion.age) {
     for (std::size_t i = 0; i < marks_.size(); ++i) marks_[i] = landmarks[i].cast<float>();
     for (int c = 0; c < LipGrid::kColumns; ++c) {
-        border_[c] = face.rest.row(face.lips.node(0, c)).transpose().cast<float>();
+        border_[c] = canvas.rest.row(canvas.lips.node(0, c)).transpose().cast<float>();
     }
 }
 
@@ -94,7 +95,8 @@ float SkinPaint::near(int landmark, const Vector3f& offset, const Vector3f& p, f
 Vector3f SkinPaint::complexion(const Vector3f& p) const {
     const float broad = fractal(p * 0.055f), fine = fractal(p * 0.27f + Vector3f::Constant(3)),
                 grain = noise(p * 1.1f);
-    Vector3f colour = linear_from_srgb(210, 162, 141) * (0.87f + 0.15f * broad + 0.13f * fine);
+    const Complexion& own = looks_.complexion;
+    Vector3f colour = linear_from(own.skin) * (0.87f + 0.15f * broad + 0.13f * fine);
     colour = tinted(colour, {1.04f, 0.89f, 0.86f}, smooth_step(0.45f, 0.75f, fine) * 0.8f) *
              (0.96f + 0.07f * grain);
     const float cheeks = near(54, {21, 35, -19}, p, 24) + near(48, {-21, 35, -19}, p, 24);
@@ -104,7 +106,7 @@ Vector3f SkinPaint::complexion(const Vector3f& p) const {
         smooth_step(74, 84, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(-10, 10, p.y());
     const float red =
         0.45f * cheeks + 0.55f * nose + 0.5f * wings + 0.6f * ears + 0.25f * near(8, {0, 12, 2}, p, 15);
-    colour = tinted(colour, {1.04f, 0.80f, 0.77f}, red);
+    colour = tinted(colour, {1.04f, 0.80f, 0.77f}, own.redness * red);
     const float brow_height = marks_[24].y();
     const float forehead =
         smooth_step(brow_height + 3, brow_height + 33, p.y()) * smooth_step(-66, -26, p.z());
@@ -114,18 +116,29 @@ Vector3f SkinPaint::complexion(const Vector3f& p) const {
     const float above_eyes = near(43, {3, 6, 0}, p, 9) + near(38, {-3, 6, 0}, p, 9);
     colour = tinted(colour, {0.95f, 0.85f, 0.83f}, 0.6f * above_eyes);
     const float lid = lid_distance(p);
-    colour = tinted(colour, {0.88f, 0.64f, 0.60f}, (1 - smooth_step(0.3f, 3.0f, lid)) * 0.7f);
+    colour = tinted(colour, {0.88f, 0.64f, 0.60f}, (1 - smooth_step(0.3f, 3.0f, lid)) * 0.7f * own.redness);
     const float freckle = smooth_step(0.80f, 0.92f, noise(p * 0.65f + Vector3f::Constant(11))) *
                           smooth_step(0.5f, 0.7f, noise(p * 0.13f)) * (0.3f + 0.6f * clamp01(cheeks + nose));
-    return tinted(colour, {0.86f, 0.78f, 0.74f}, freckle);
+    colour = tinted(colour, {0.86f, 0.78f, 0.74f}, own.freckles * freckle);
+    const float spot = smooth_step(0.80f, 0.90f, noise(p * 0.19f + Vector3f::Constant(5))) *
+                       smooth_step(0.50f, 0.70f, noise(p * 0.05f + Vector3f::Constant(9)));
+    colour = tinted(colour, {0.80f, 0.68f, 0.60f}, own.age * (0.35f * spot + 0.5f * below_eyes));
+    return tinted(colour, {0.74f, 0.56f, 0.53f}, creases_.at(p));
+}
+
+Vector3f SkinPaint::hair_colour(const Vector3f& strand, float share) const {
+    const float white = smooth_step(0.1f, 0.9f, noise(strand.cwiseProduct(Vector3f(1.7f, 0.8f, 1.7f))));
+    return mix(linear_from(looks_.hair.colour), linear_from_srgb(206, 202, 196),
+               share * looks_.hair.grey * white);
 }
 
 float SkinPaint::brow_cover(const Vector3f& p) const {
     const auto [t, above, out] = brow(p);
     if (out > 9) return 0;
     const float inner = smooth_step(-0.10f, 0.24f, t + 0.05f * (noise(p * 0.7f) - 0.5f));
-    const float half = mix(3.7f, 1.5f, smooth_step(0.35f, 1, t)) * (0.75f + 0.25f * inner);
-    const float middle = above + 0.6f + 1.1f * (noise(Vector3f(t * 36, above * 0.9f, 1)) - 0.5f);
+    const float half = mix(looks_.brows.half_width, 1.5f, smooth_step(0.35f, 1, t)) * (0.75f + 0.25f * inner);
+    const float middle =
+        above - looks_.brows.rise + 0.6f + 1.1f * (noise(Vector3f(t * 36, above * 0.9f, 1)) - 0.5f);
     const float dense = 1 - smooth_step(half * 0.2f, half * 1.2f, std::abs(middle));
     const float lean =
         mix(0.25f, 1.9f, smooth_step(0, 0.5f, t));  // strands rise at the nose and lie down outwards
@@ -162,30 +175,33 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
     const Vector3f& p = texel.place;
     constexpr float kHem = 1.1f;  // mm to either side of the collar's edge, about a texel there
     const float cloth = smooth_step(kHem, -kHem, collar(p));
-    if (cloth == 1) return cloth_paint(p);
+    if (cloth == 1) return cloth_paint(p, looks_.cloth);
     const float into_lips = lip_depth(p),
                 lips = smooth_step(-1.2f, 1.1f, into_lips + 0.8f * (noise(p * 0.9f) - 0.5f));
     const Vector3f bare = complexion(p);
-    const float beard = stubble(p) * (1 - lips) * smooth_step(0, -4, into_lips);
+    const Complexion& own = looks_.complexion;
+    const HairStyle& style = looks_.hair;
+    const float beard = own.beard * stubble(p) * (1 - lips) * smooth_step(0, -4, into_lips);
     const float points = smooth_step(0.40f, 0.85f, noise(p.cwiseProduct(Vector3f(1.9f, 1.5f, 1.9f))));
-    Vector3f colour = tinted(bare, {0.56f, 0.56f, 0.60f}, beard * 0.36f * (0.55f + 0.7f * points));
-    const Vector3f red = bare.cwiseProduct(Vector3f(0.80f, 0.46f, 0.45f)) *
-                         (0.88f + 0.26f * fractal(p.cwiseProduct(Vector3f(0.9f, 0.25f, 0.4f))));
+    Vector3f colour = tinted(bare, own.shaven, beard * 0.36f * (0.55f + 0.7f * points));
+    const Vector3f red =
+        bare.cwiseProduct(own.lips) * (0.88f + 0.26f * fractal(p.cwiseProduct(Vector3f(0.9f, 0.25f, 0.4f))));
     colour = mix(colour, red, 0.85f * lips);
-    const float behind = hair_depth(p), tips = noise(p.cwiseProduct(Vector3f(1.5f, 1.0f, 1.5f)));
-    const float tuft = noise(p.cwiseProduct(Vector3f(0.62f, 0.30f, 0.42f)));
-    const float stipple = smooth_step(0.2f, 0.7f, noise(p * 1.7f) * 0.6f + 0.4f * tips);
-    const float hair =
-        smooth_step(-9, 17, behind) * mix(0.62f + 0.38f * stipple, 1, smooth_step(6, 30, behind));
-    const Vector3f hair_colour = linear_from_srgb(46, 33, 25);
+    const Vector3f q = strand_place(style, p);
+    const float behind = hair_depth(style, p), tips = noise(q.cwiseProduct(Vector3f(1.5f, 1.0f, 1.5f)));
+    const float tuft = noise(q.cwiseProduct(Vector3f(0.62f, 0.30f, 0.42f)));
+    const float stipple = smooth_step(0.2f, 0.7f, noise(q * 1.7f) * 0.6f + 0.4f * tips);
+    const float hair = smooth_step(style.fade_from, style.fade_to, behind) *
+                       mix(style.cover + (1 - style.cover) * stipple, 1, smooth_step(6, 30, behind));
+    const Vector3f hair_colour = this->hair_colour(q, 1),
+                   brow_colour = this->hair_colour(p, looks_.brows.grey);
     const float strands = (0.25f + 1.3f * tips * stipple) * (0.6f + 0.8f * tuft);
     colour = mix(colour, hair_colour * (0.35f + strands), 0.94f * hair);
-    colour = mix(colour, hair_colour * 0.85f, 0.93f * clamp01(brow_cover(p)));
-    colour = mix(colour, hair_colour * 0.6f, 0.55f * upper_lash_line(p));
+    colour = mix(colour, brow_colour * 0.85f, looks_.brows.cover * clamp01(brow_cover(p)));
+    colour = mix(colour, linear_from_srgb(46, 33, 25) * 0.6f, looks_.lash_line * upper_lash_line(p));
     const float dark = nostril(p, open);
     colour = mix(colour, linear_from_srgb(58, 24, 18), 0.9f * dark);
-    const float shine =
-        clamp01(near(30, {0, 0, 0}, p, 14) + smooth_step(105, 125, p.y()) * smooth_step(-50, -20, p.z()));
+    const float shine = near(30, {0, 0, 0}, p, 14);
     const float matt = near(39, {1, -9, 4}, p, 13) + near(42, {-1, -9, 4}, p, 13);
     Paint paint{colour, mix(mix(0.55f, 0.49f, shine), 0.66f, clamp01(matt))};
     paint.roughness = mix(paint.roughness, 0.32f, lips);
@@ -193,14 +209,17 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
     paint.roughness = mix(paint.roughness, 0.6f, corners);
     paint.roughness = mix(paint.roughness, 0.62f, std::max(hair, 0.4f * beard));
     paint.open = (1 - 0.5f * dark) * (1 - 0.3f * hair);
-    // Lids are thin and wet: their edges never go black.
-    if (lid_distance(p) < 3) paint.open *= std::max(1.0f, 0.6f / std::max(open, 0.05f));
+    // Lids are thin and wet: their edges never go black; nor do the columella and the corners of the mouth.
+    const auto no_darker = [&](float least) { return std::max(1.0f, least / std::max(open, 0.05f)); };
+    if (lid_distance(p) < 3) paint.open *= no_darker(0.6f);
+    paint.open *= mix(1, no_darker(0.6f), clamp01(1.5f * near(33, {0, 3, 1}, p, 5)) * (1 - dark));
+    paint.open *= mix(1, no_darker(0.55f), corners);
     const float ear =
         smooth_step(76, 86, std::abs(p.x())) * smooth_step(100, 90, p.y()) * smooth_step(0, 20, p.y());
     paint.thinness =
         (1 - dark) * clamp01(0.9f * ear + 0.3f * (near(31, {0, 0, 0}, p, 8) + near(35, {0, 0, 0}, p, 8)));
     if (cloth == 0) return paint;
-    const Paint below = cloth_paint(p);
+    const Paint below = cloth_paint(p, looks_.cloth);
     paint.colour = mix(paint.colour, below.colour, cloth);
     paint.roughness = mix(paint.roughness, below.roughness, cloth);
     return paint;
@@ -208,11 +227,13 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
 
 float SkinPaint::height(const Vector3f& p) const {
     if (collar(p) < 0) return 1.2f * smooth_step(0, -1.5f, collar(p)) + 0.04f * noise(p * 1.3f);
-    const float lips = smooth_step(-0.5f, 1.5f, lip_depth(p)), hair = smooth_step(-3, 10, hair_depth(p));
+    const float lips = smooth_step(-0.5f, 1.5f, lip_depth(p)),
+                hair = smooth_step(-3, 10, hair_depth(looks_.hair, p));
     const float pores = 0.11f * noise(p * 0.45f) + 0.055f * noise(p * 0.95f);
     const float creases = 0.32f * noise(p.cwiseProduct(Vector3f(0.95f, 0.16f, 0.25f)));
-    return mix(mix(pores, creases, lips),
-               0.5f * noise(p.cwiseProduct(Vector3f(0.8f, 0.5f, 0.6f))) + 0.35f * noise(p * 1.4f), hair);
+    const Vector3f q = strand_place(looks_.hair, p);
+    return mix(mix(pores - 0.9f * creases_.at(p), creases, lips),
+               0.5f * noise(q.cwiseProduct(Vector3f(0.8f, 0.5f, 0.6f))) + 0.35f * noise(q * 1.4f), hair);
 }
 
 }  // namespace viaface

@@ -84,6 +84,12 @@ std::vector<int> read_landmarks(const fs::path& file) {
     return json.at("idx_to_landmark_verts").get<std::vector<int>>();
 }
 
+double share_of_identity(double height) {
+    constexpr double kNone = -130, kWhole = -75;  // mm: at the shoulders, under the chin
+    const double t = std::clamp((height - kNone) / (kWhole - kNone), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
 std::vector<std::string> names_where(const std::map<std::string, Nodes>& deltas, bool identity) {
     std::vector<std::string> names;
     for (const auto& [name, delta] : deltas) {
@@ -94,7 +100,7 @@ std::vector<std::string> names_where(const std::map<std::string, Nodes>& deltas,
 
 }  // namespace
 
-BlendHead::BlendHead(const fs::path& folder) {
+BlendHead::BlendHead(const fs::path& folder, const ShapeWeights& identity) {
     const fs::path rest = folder / "generic_neutral_mesh.obj";
     if (!fs::exists(rest)) {
         throw InputError("scans", folder.string(), "a folder with generic_neutral_mesh.obj and its shapes");
@@ -114,6 +120,24 @@ BlendHead::BlendHead(const fs::path& folder) {
     const Vector3d origin = mean_of(neutral_.nodes, incisor_edge(neutral_.nodes, kUpperTeeth, -1));
     neutral_.nodes.rowwise() -= origin.transpose();
     place_points();
+    become(identity);
+}
+
+// The mouth's inside is nobody's: it stays, and the person's lips meet before it where the head's do. So do
+// the shoulders.
+void BlendHead::become(const ShapeWeights& identity) {
+    constexpr int kFirstInner = 60, kLastInner = 67;  // landmarks of the inner lips
+    generic_ = neutral_.nodes;
+    Nodes way = with(generic_, identity) - generic_;
+    const std::vector<int> inner(landmarks_.begin() + kFirstInner, landmarks_.begin() + kLastInner + 1);
+    way.rowwise() -= mean_of(way, inner).transpose();
+    for (Eigen::Index i = 0; i < way.rows(); ++i) {
+        neutral_.nodes.row(i) += share_of_identity(generic_(i, 1)) * way.row(i);
+    }
+    for (const Range& range : {kMouthSocket, kGumsAndTongue, kUpperTeeth, kLowerTeeth}) {
+        neutral_.nodes.middleRows(range.first, range.last - range.first) =
+            generic_.middleRows(range.first, range.last - range.first);
+    }
 }
 
 void BlendHead::place_points() {
@@ -144,17 +168,18 @@ const Nodes& BlendHead::delta(const std::string& name) const {
     return found->second;
 }
 
-Nodes BlendHead::pose(const ShapeWeights& weights) const {
-    Nodes posed = neutral_.nodes;
+Nodes BlendHead::with(Nodes nodes, const ShapeWeights& weights) const {
     for (const auto& [name, weight] : weights) {
         if (deltas_.contains(name)) {
-            posed += weight * delta(name);
+            nodes += weight * delta(name);
         } else {
-            posed += weight * (delta(name + "_L") + delta(name + "_R"));
+            nodes += weight * (delta(name + "_L") + delta(name + "_R"));
         }
     }
-    return posed;
+    return nodes;
 }
+
+Nodes BlendHead::pose(const ShapeWeights& weights) const { return with(neutral_.nodes, weights); }
 
 std::vector<std::string> BlendHead::shape_names() const { return names_where(deltas_, false); }
 std::vector<std::string> BlendHead::identity_names() const { return names_where(deltas_, true); }

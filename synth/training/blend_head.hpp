@@ -1,6 +1,7 @@
 // A blend-shape head in the ICT Face Model Light layout (one topology, a neutral head, named shapes), posed
-// by weights: nodes = neutral + sum of weight * (shape - neutral). It is posed and scanned to make the
-// built-in talker; nothing of its files, topology or order reaches a talker.
+// by weights: nodes = neutral + sum of weight * (shape - neutral). A person's identity is such a sum that
+// stays: neutral and every pose have it. It is posed and scanned to make the built-in talkers; nothing of its
+// files, topology or order reaches a talker.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +21,10 @@ class BlendHead {
   public:
     // Reads the neutral head and every shape; converts cm to mm in the head frame of viapoints/LAYOUT.md.
     // InputError("scans", folder, ...) when the folder is not such a head.
-    explicit BlendHead(const std::filesystem::path& folder);
+    explicit BlendHead(const std::filesystem::path& folder, const ShapeWeights& identity = {});
 
-    const ObjScan& neutral() const { return neutral_; }  // mm, head frame
+    const ObjScan& neutral() const { return neutral_; }  // of the person, mm, head frame
+    const Nodes& generic() const { return generic_; }    // neutral of nobody, [nodes x 3], mm, head frame
     Nodes pose(const ShapeWeights& weights) const;       // [nodes x 3], mm, head frame
     std::vector<std::string> shape_names() const;        // sorted; without identities
     std::vector<std::string> identity_names() const;
@@ -44,9 +46,12 @@ class BlendHead {
 
   private:
     void place_points();
+    void become(const ShapeWeights& identity);
+    Nodes with(Nodes nodes, const ShapeWeights& weights) const;
     const Nodes& delta(const std::string& name) const;
 
     ObjScan neutral_;
+    Nodes generic_;
     std::map<std::string, Nodes> deltas_;
     std::vector<int> landmarks_;
     std::vector<std::vector<int>> point_nodes_;  // a point is the mean of these nodes; empty for the tongue

@@ -75,7 +75,7 @@ struct FrontCurves {
 
 void add_eye(DisplayAnchors& mesh, FrontCurves& curves, const Loop& hole, const Chart& chart,
              const BlendHead& head) {
-    const Nodes& scan = head.neutral().nodes;
+    const Nodes& scan = head.generic();
     const bool left = scan(hole.front(), 0) > 0;
     const auto first = static_cast<int>(mesh.front.size());
     mesh.lid_first[left ? 0 : 1] = first;
@@ -93,7 +93,7 @@ void add_eye(DisplayAnchors& mesh, FrontCurves& curves, const Loop& hole, const 
 }
 
 void add_lips(DisplayAnchors& mesh, FrontCurves& curves, const Chart& chart, const BlendHead& head) {
-    const Nodes& scan = head.neutral().nodes;
+    const Nodes& scan = head.generic();
     curves.border = lip_contour(landmark_ring(head, kLipBorder), 3, 6, 9, chart, scan);
     mesh.lip_inner = lip_contour(landmark_ring(head, kLipInner), 2, 4, 6, chart, scan);
     mesh.lip_middle = midway(curves.border, mesh.lip_inner, chart, scan);
@@ -101,7 +101,7 @@ void add_lips(DisplayAnchors& mesh, FrontCurves& curves, const Chart& chart, con
 }
 
 void mesh_front(DisplayAnchors& mesh, const Chart& chart, const BlendHead& head) {
-    const Nodes& scan = head.neutral().nodes;
+    const Nodes& scan = head.generic();
     FrontCurves curves;
     curves.loops = {counted(0, kRingNodes)};
     add_lips(mesh, curves, chart, head);
@@ -142,7 +142,7 @@ void mesh_back(DisplayAnchors& mesh, const Chart& chart, const Nodes& scan) {
 }  // namespace
 
 DisplayAnchors remesh_head(const BlendHead& head) {
-    const Nodes& scan = head.neutral().nodes;
+    const Nodes& scan = head.generic();
     const Chart face(scan, triangles_of(head.neutral(), "M_Face", BlendHead::kFace.last));
     const Chart back(scan, triangles_of(head.neutral(), "M_BackHead", BlendHead::kHeadAndNeck.last));
     DisplayAnchors mesh;

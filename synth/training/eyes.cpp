@@ -15,7 +15,7 @@ constexpr int kLashRows = 4;
 
 }  // namespace
 
-PartMesh eye(double side) {
+PartMesh eye(double side, const EyeBall& ball) {
     constexpr int kNodes = kEyeRings * kEyeAround + 1;
     PartMesh part{side > 0 ? "eye_left" : "eye_right",
                   Material::kEye,
@@ -23,20 +23,21 @@ PartMesh eye(double side) {
                   Nodes(kNodes, 3),
                   Uvs(kNodes, 2),
                   {}};
-    const Vector3d centre = eye_ball(side).centre;
     for (int r = 0; r < kEyeRings; ++r) {
         const double angle = kLastAngle * std::pow((r + 1.0) / kEyeRings, 1.25);
         for (int k = 0; k < kEyeAround; ++k) {
             const double round = 2 * std::numbers::pi * k / kEyeAround;
             const Vector3d way(std::sin(angle) * std::cos(round), std::sin(angle) * std::sin(round),
                                std::cos(angle));
-            part.nodes.row(r * kEyeAround + k) = (centre + EyeBall::radius_at(angle) * way).transpose();
+            part.nodes.row(r * kEyeAround + k) =
+                (ball.centre + ball.size * EyeBall::radius_at(angle) * way).transpose();
             const double reach = angle / (2 * std::numbers::pi);
             part.uvs.row(r * kEyeAround + k) << static_cast<float>(0.5 + side * reach * std::cos(round)),
                 static_cast<float>(0.5 + reach * std::sin(round));
         }
     }
-    part.nodes.row(kNodes - 1) = (centre + Vector3d(0, 0, EyeBall::radius_at(0))).transpose();
+    part.nodes.row(kNodes - 1) =
+        (ball.centre + Vector3d(0, 0, ball.size * EyeBall::radius_at(0))).transpose();
     part.uvs.row(kNodes - 1) << 0.5f, 0.5f;
     const auto node = [](int r, int k) { return r * kEyeAround + k % kEyeAround; };
     for (int k = 0; k < kEyeAround; ++k) {

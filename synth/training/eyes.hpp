@@ -9,7 +9,7 @@
 
 namespace viaface {
 
-PartMesh eye(double side);
+PartMesh eye(double side, const EyeBall& ball);
 
 // roots: the lid's upper or lower edge, nose to temple; the strip leaves the eyeball and curls up or down.
 Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper);

@@ -10,52 +10,68 @@ namespace {
 
 using Eigen::Vector3f;
 
-// The hairline seen from above the middle of the skull: height over the azimuth from straight ahead.
+// The hairline seen from above the middle of the skull: height over the azimuth from straight ahead, of short
+// hair and of an oval brow.
 struct HairlinePoint {
-    float azimuth, height;  // degrees, mm
+    float azimuth, height, oval;  // degrees, mm, mm
 };
-constexpr HairlinePoint kHairline[] = {{0, 134},  {12, 135}, {24, 137},  {34, 133},  {42, 121}, {49, 106},
-                                       {57, 93},  {64, 78},  {70, 60},   {75, 54},   {80, 70},  {92, 88},
-                                       {104, 76}, {116, 26}, {128, -12}, {145, -24}, {180, -28}};
+constexpr HairlinePoint kHairline[] = {
+    {0, 134, 137}, {12, 135, 137}, {24, 137, 135},  {34, 133, 130},  {42, 121, 124}, {49, 106, 117},
+    {57, 93, 109}, {64, 78, 102},  {70, 60, 96},    {75, 54, 92},    {80, 70, 90},   {92, 88, 88},
+    {104, 76, 76}, {116, 26, 26},  {128, -12, -12}, {145, -24, -24}, {180, -28, -28}};
 const Vector3f kSkullMiddle(0, 0, -106);
 
-float between_points(float azimuth) {
+float between_points(float oval, float azimuth) {
     const auto* after = std::ranges::find_if(kHairline, [&](const auto& p) { return p.azimuth >= azimuth; });
-    if (after == std::begin(kHairline)) return after->height;
+    const auto height = [&](const HairlinePoint& p) { return mix(p.height, p.oval, oval); };
+    if (after == std::begin(kHairline)) return height(*after);
     const auto* before = after - 1;
-    return mix(before->height, after->height,
+    return mix(height(*before), height(*after),
                (azimuth - before->azimuth) / (after->azimuth - before->azimuth));
 }
 
 // Rounded over `half` degrees to either side.
-float hairline_height(float azimuth) {
+float hairline_height(const HairStyle& style, float azimuth) {
     constexpr float half = 5;
     float sum = 0;
-    for (int k = -2; k <= 2; ++k) sum += between_points(std::clamp(azimuth + k * half / 2, 0.0f, 180.0f));
-    return sum / 5;
+    for (int k = -2; k <= 2; ++k)
+        sum += between_points(style.oval, std::clamp(azimuth + k * half / 2, 0.0f, 180.0f));
+    return sum / 5 + style.forehead * smooth_step(34, 12, azimuth) +
+           style.temples * smooth_step(16, 36, azimuth) * smooth_step(64, 50, azimuth);
 }
 
 }  // namespace
 
-float hair_depth(const Vector3f& p) {
+float hair_depth(const HairStyle& style, const Vector3f& p) {
     const Vector3f d = p - kSkullMiddle;
     const float radius = std::hypot(d.x(), d.z());
     const float azimuth = std::atan2(std::abs(d.x()), d.z()) * 57.29578f;
-    const float line = hairline_height(azimuth);
-    const float slope =
-        (hairline_height(std::min(azimuth + 4, 180.0f)) - hairline_height(std::max(azimuth - 4, 0.0f))) /
-        std::max(radius * 0.1396f, 4.0f);
-    const float ragged = 8 * (fractal(p * 0.09f, 2) - 0.5f) + 3 * (noise(p * 0.35f) - 0.5f);
+    const float line = hairline_height(style, azimuth);
+    const float slope = (hairline_height(style, std::min(azimuth + 4, 180.0f)) -
+                         hairline_height(style, std::max(azimuth - 4, 0.0f))) /
+                        std::max(radius * 0.1396f, 4.0f);
+    const float ragged = style.ragged * (8 * (fractal(p * 0.09f, 2) - 0.5f) + 3 * (noise(p * 0.35f) - 0.5f));
     float depth = (p.y() - line) / std::sqrt(1 + slope * slope) + ragged;
     const float ear = smooth_step(76, 80, std::abs(p.x())) * smooth_step(88, 76, p.y());
     return mix(depth, -20, ear);
 }
 
-float hair_thickness(const Vector3f& p) {
-    constexpr float kThickness = 2.8f, kFrom = 2, kFull = 34;  // mm
-    constexpr float kCrownFrom = 110, kCrown = 172;            // mm up: there it lies flat
-    return kThickness * smooth_step(kFrom, kFull, hair_depth(p)) *
-           (1 - 0.85f * smooth_step(kCrownFrom, kCrown, p.y()));
+float hair_thickness(const HairStyle& style, const Vector3f& p) {
+    constexpr float kFrom = 2;                       // mm behind the line
+    constexpr float kCrownFrom = 110, kCrown = 172;  // mm up
+    return style.thickness * smooth_step(kFrom, style.full_at, hair_depth(style, p)) *
+           (1 - style.flat_crown * smooth_step(kCrownFrom, kCrown, p.y()));
+}
+
+// Hairs lie on half planes about the axis from the skull's middle to the knot; these meet under it.
+Vector3f strand_place(const HairStyle& style, const Vector3f& p) {
+    if (!style.knot) return p;
+    constexpr float kRadius = 55, kAlong = 0.10f;  // mm to a radian, and of that
+    const Vector3f middle(0, 60, -106);
+    const Vector3f axis = (style.knot->middle - middle).normalized(), from = p - middle;
+    const Vector3f up(0, -axis.z(), axis.y());
+    const float round = std::atan2(from.x(), from.dot(up)), away = std::acos(from.normalized().dot(axis));
+    return {kRadius * round, kRadius * kAlong * away, 17};
 }
 
 }  // namespace viaface

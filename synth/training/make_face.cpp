@@ -5,7 +5,7 @@
 
 #include "synth/picture/surface_frame.hpp"
 #include "synth/pose/inside.hpp"
-#include "synth/training/eyes.hpp"
+#include "synth/training/hair_knot.hpp"
 #include "synth/training/hairline.hpp"
 #include "synth/training/teeth.hpp"
 #include "synth/training/tongue.hpp"
@@ -78,9 +78,10 @@ constexpr LashPlace kLashes[] = {{"lashes_upper_left", 0, true},
 
 Nodes roots_of(const std::vector<Anchor>& roots, const Nodes& scan) { return nodes_at(roots, scan); }
 
-Nodes posed_lashes(const DisplayAnchors& anchors, const LashPlace& place, const Nodes& scan) {
+Nodes posed_lashes(const DisplayAnchors& anchors, const LashPlace& place, const EyeBall& ball,
+                   const Nodes& scan) {
     const auto& roots = anchors.lash_roots[static_cast<std::size_t>(2 * place.eye + (place.upper ? 0 : 1))];
-    return lash_strip(roots_of(roots, scan), eye_ball(place.eye == 0 ? 1 : -1), place.upper);
+    return lash_strip(roots_of(roots, scan), ball, place.upper);
 }
 
 void add_part(Face& face, const PartMesh& mesh) {
@@ -99,8 +100,9 @@ void add_part(Face& face, const PartMesh& mesh) {
 }
 
 // Every part at the posture of `scan`, in the face's order.
-std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anchors,
-                               const Configuration& rest, const Nodes& lining, const Nodes& scan) {
+std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anchors, const BesideScan& beside,
+                               const Nodes& scan) {
+    const Configuration& rest = beside.points;
     const JawMotion jaw = jaw_of(rest, head.points(scan));
     const LipContours contours = lip_contours(anchors, scan);
     std::vector<PartMesh> parts;
@@ -111,7 +113,7 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
     parts.push_back(
         {"lips", Material::kLips, Drive::kLips, lip_rows(contours), lip_uvs(), lip_triangles(LipGrid{})});
     fold_round(parts.back().uvs, LipGrid::kColumns, LipGrid::kRows);
-    parts.push_back(mouth_lining(MouthLining::posed(lining, contours.inner, jaw)));
+    parts.push_back(mouth_lining(MouthLining::posed(beside.lining, contours.inner, jaw)));
     fold_round(parts.back().uvs, MouthLining::kColumns, MouthLining::kRings);
     parts.push_back(upper_teeth());
     parts.push_back(lower_teeth());
@@ -123,15 +125,17 @@ std::vector<PartMesh> parts_of(const BlendHead& head, const DisplayAnchors& anch
     fold_round(parts.back().uvs, TongueSweep::kAround, TongueSweep::kSections);
     parts.back().nodes =
         TongueSweep::posed(parts.back().nodes, tongue_points(rest), tongue_points(head.points(scan)), jaw);
-    parts.push_back(eye(+1));
-    parts.push_back(eye(-1));
+    parts.push_back(eye(+1, beside.eyes[0]));
+    parts.push_back(eye(-1, beside.eyes[1]));
     for (const LashPlace& place : kLashes) {
-        const Nodes strip = posed_lashes(anchors, place, scan);
+        const Nodes strip =
+            posed_lashes(anchors, place, beside.eyes[static_cast<std::size_t>(place.eye)], scan);
         const auto& roots =
             anchors.lash_roots[static_cast<std::size_t>(2 * place.eye + (place.upper ? 0 : 1))];
         parts.push_back(lashes(place.name, strip, static_cast<int>(roots.size()), place.upper,
                                (place.eye == 1) == place.upper));
     }
+    if (beside.knot) parts.push_back(hair_knot(*beside.knot));
     return parts;
 }
 
@@ -146,19 +150,43 @@ void weld_parts(Face& face, const DisplayAnchors& anchors) {
     }
 }
 
-// How far hair stands off the scalp of a bare head, mm.
-Nodes hair_over(const Face& bare) {
+// How far hair stands off the scalp of a bare head, mm. places: of its nodes on the head without identity.
+Nodes hair_over(const Face& bare, const Nodes& places, const HairStyle& style) {
     NodesF normals;
     NodeNormals(bare).compute(bare.rest.cast<float>(), normals);
     Nodes hair = Nodes::Zero(bare.rest.rows(), 3);
     for (const FacePart& part : bare.parts) {
         if (part.material != Material::kSkin) continue;
         for (int i = part.first_node; i < part.first_node + part.nodes; ++i) {
-            hair.row(i) =
-                hair_thickness(bare.rest.row(i).transpose().cast<float>()) * normals.row(i).cast<double>();
+            hair.row(i) = hair_thickness(style, places.row(i).transpose().cast<float>()) *
+                          normals.row(i).cast<double>();
         }
     }
     return hair;
+}
+
+// The eye of the head without identity, moved and sized as the scan's eyeball is.
+EyeBall eye_on(const Nodes& generic, const Nodes& neutral, double side) {
+    const auto ball_of = [&](const Nodes& nodes) {
+        std::vector<int> which;
+        for (int i = BlendHead::kEyeballs.first; i < BlendHead::kEyeballs.last; ++i) {
+            if (side * generic(i, 0) > 0) which.push_back(i);
+        }
+        const Nodes ball = nodes(which, Eigen::all);
+        const Eigen::RowVector3d middle = ball.colwise().mean();
+        return std::pair<Vector3d, double>(middle, (ball.rowwise() - middle).norm());
+    };
+    const auto [from, from_size] = ball_of(generic);
+    const auto [to, to_size] = ball_of(neutral);
+    return {eye_ball(side).centre + (to - from), to_size / from_size};
+}
+
+// How far the head's node next to a place has moved.
+Eigen::Vector3f shift_near(const Nodes& generic, const Nodes& neutral, const Eigen::Vector3f& place) {
+    Eigen::Index nearest = 0;
+    const auto head = generic.topRows(BlendHead::kHeadAndNeck.last);
+    (head.rowwise() - place.cast<double>().transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+    return (neutral.row(nearest) - generic.row(nearest)).cast<float>().transpose();
 }
 
 Eigen::VectorXd flat(const Nodes& nodes) {
@@ -167,47 +195,57 @@ Eigen::VectorXd flat(const Nodes& nodes) {
 
 }  // namespace
 
-HeadToFace::HeadToFace(const BlendHead& head)
+HeadToFace::HeadToFace(const BlendHead& head, const HairStyle& hair)
     : head_(head),
       anchors_(remesh_head(head)),
-      rest_points_(head.points(head.neutral().nodes)),
-      lining_(MouthLining::rest(lip_contours(anchors_, head.neutral().nodes).inner)),
+      beside_(beside(head.neutral().nodes, hair)),
+      generic_beside_(beside(head.generic(), hair)),
       lowered_(lowered_lids(head)) {
-    hair_ = hair_over(unposed());
+    const Face bare = unposed(), bare_canvas = canvas();
+    hair_ = hair_over(bare, bare_canvas.rest, hair);
+    generic_hair_ = hair_over(bare_canvas, bare_canvas.rest, hair);
+}
+
+BesideScan HeadToFace::beside(const Nodes& neutral, const HairStyle& hair) const {
+    BesideScan beside{head_.points(neutral),
+                      MouthLining::rest(lip_contours(anchors_, neutral).inner),
+                      {eye_on(head_.generic(), neutral, +1), eye_on(head_.generic(), neutral, -1)},
+                      hair.knot};
+    if (beside.knot) beside.knot->middle += shift_near(head_.generic(), neutral, beside.knot->middle);
+    return beside;
 }
 
 Nodes HeadToFace::resting(const Nodes& scan) const { return scan + lowered_; }
 
-std::vector<PartMesh> HeadToFace::parts(const Nodes& scan) const {
-    auto parts = parts_of(head_, anchors_, rest_points_, lining_, resting(scan));
-    Eigen::Index first = 0;
-    for (PartMesh& part : parts) {
-        if (hair_.rows() != 0) part.nodes += hair_.middleRows(first, part.nodes.rows());
-        first += part.nodes.rows();
-    }
-    return parts;
-}
-
 Nodes HeadToFace::posed(const Nodes& scan) const {
-    const auto parts = this->parts(scan);
-    Eigen::Index count = 0;
-    for (const PartMesh& part : parts) count += part.nodes.rows();
-    Nodes nodes(count, 3);
-    count = 0;
+    const auto parts = parts_of(head_, anchors_, beside_, resting(scan));
+    Nodes nodes = hair_;
+    Eigen::Index first = 0;
     for (const PartMesh& part : parts) {
-        nodes.middleRows(count, part.nodes.rows()) = part.nodes;
-        count += part.nodes.rows();
+        nodes.middleRows(first, part.nodes.rows()) += part.nodes;
+        first += part.nodes.rows();
     }
     return nodes;
 }
 
-Face HeadToFace::unposed() const {
+Face HeadToFace::face_of(const BesideScan& beside, const Nodes& hair, const Nodes& scan) const {
     Face face;
     face.jaw_hinge = kHinge;
-    for (const PartMesh& part : parts(head_.pose(posture("closed_relaxed").weights))) add_part(face, part);
+    for (const PartMesh& part : parts_of(head_, anchors_, beside, resting(scan))) add_part(face, part);
+    if (hair.rows() != 0) face.rest += hair;
     face.lips.first_node = part_named(face, "lips").first_node;
     weld_parts(face, anchors_);
     return face;
+}
+
+Face HeadToFace::unposed() const {
+    return face_of(beside_, hair_, head_.pose(posture("closed_relaxed").weights));
+}
+
+Face HeadToFace::canvas() const {
+    const Nodes to_generic = head_.generic() - head_.neutral().nodes;
+    return face_of(generic_beside_, generic_hair_,
+                   head_.pose(posture("closed_relaxed").weights) + to_generic);
 }
 
 Face make_face(const HeadToFace& source, const std::vector<Posture>& postures) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <future>
+#include <set>
 
 #include "server/http_body.hpp"
 #include "server/json_fields.hpp"
@@ -198,8 +199,25 @@ TEST(Service, DescribesItself) {
         EXPECT_EQ(served.client().Get(path)->status, 200) << path;
     }
     EXPECT_EQ(served.get("/v1/voices")["voices"].size(), 4u);
-    EXPECT_EQ(served.get("/v1/talkers")["talkers"][0]["name"], "momo");
+    std::set<std::string> talkers;
+    const json told = served.get("/v1/talkers");
+    for (const json& talker : told["talkers"]) {
+        talkers.insert(talker["name"]);
+        EXPECT_NE(talker["summary"].get<std::string>().find("performed by a model"), std::string::npos);
+    }
+    EXPECT_EQ(talkers, (std::set<std::string>{"amara", "edwin", "momo", "sumi"}));
     EXPECT_NE(served.client().Get("/")->body.find("<video"), std::string::npos);
+}
+
+TEST(Service, TheTalkersOwnVoiceIsHeardWhereNoneIsNamed) {
+    const Served served;
+    const auto heard = [&](const json& body) -> std::string {
+        return json::parse(post(served.client(), "/v1/viapoints", body)->body)["voice"];
+    };
+    EXPECT_EQ(heard({{"text", "Hi."}}), "rms");
+    EXPECT_EQ(heard({{"text", "Hi."}, {"talker", "amara"}}), "slt");
+    EXPECT_EQ(heard({{"text", "Hi."}, {"talker", "edwin"}}), "awb");
+    EXPECT_EQ(heard({{"text", "Hi."}, {"talker", "amara"}, {"voice", "kal16"}}), "kal16");
 }
 
 json long_request() {

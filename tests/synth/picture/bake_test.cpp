@@ -107,8 +107,9 @@ TEST(Bake, SameFaceSameTextures) {
     Landmarks landmarks;
     landmarks.fill(Eigen::Vector3d::Zero());
     Face again = face;
-    bake_surfaces(face, landmarks);
-    bake_surfaces(again, landmarks);
+    const Face canvas = face;
+    bake_surfaces(face, canvas, landmarks);
+    bake_surfaces(again, canvas, landmarks);
     for (int m = 0; m < kMaterials; ++m) {
         EXPECT_EQ(face.surfaces[m].base_colour.pixels, again.surfaces[m].base_colour.pixels);
         EXPECT_EQ(face.surfaces[m].occlusion_roughness.pixels, again.surfaces[m].occlusion_roughness.pixels);

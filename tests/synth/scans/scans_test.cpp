@@ -78,6 +78,76 @@ TEST(AdaptedHead, RefusesAUnitInWhichNoHeadIs) {
     }
 }
 
+ScanFolder mirror_image(ScanFolder scans) {
+    scans.postures["neutral"].mesh.nodes.col(0) *= -1;
+    for (auto& [name, place] : scans.landmarks) place.x() *= -1;
+    scans.mirrored = true;
+    return scans;
+}
+
+// The wider left half of a head comes back on the left.
+TEST(AdaptedHead, OfAMirrorImageIsTheHead) {
+    Nodes nodes = momo().face.rest;
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+        if (nodes(i, 0) > 0) nodes(i, 0) *= 1.1;
+    }
+    const ScanFolder scans = scan_of(nodes);
+    const AdaptedHead straight = adapt_head(momo(), scans), back = adapt_head(momo(), mirror_image(scans));
+    EXPECT_LT((straight.nodes - back.nodes).rowwise().norm().mean(), 0.05);
+    EXPECT_LT(back.to_scan.p95, 0.7);
+    const auto told = [](const std::string& remark) { return remark.starts_with("mirrored back"); };
+    EXPECT_TRUE(std::ranges::any_of(back.remarks, told));
+    EXPECT_TRUE(std::ranges::none_of(straight.remarks, told));
+}
+
+ScanFolder with_hole(ScanFolder scans, double radius) {
+    ScanMesh& mesh = scans.postures["neutral"].mesh;
+    const Vector3d cheek = in_scan({35, 25, -5});
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        return (mesh.nodes.row(t[0]).transpose() - cheek).norm() < radius / 1000;
+    });
+    return scans;
+}
+
+TEST(AdaptedHead, GoesOnSmoothlyOverHolesAndSaysSo) {
+    const AdaptedHead whole = adapt_head(momo(), scan_of(other_head())),
+                      holed = adapt_head(momo(), with_hole(scan_of(other_head()), 30));
+    EXPECT_LT(std::ranges::count(holed.covered, true), std::ranges::count(whole.covered, true));
+    EXPECT_EQ(holed.flipped, 0);
+    EXPECT_LT((holed.nodes - whole.nodes).rowwise().norm().maxCoeff(), 6);
+    EXPECT_TRUE(std::ranges::any_of(holed.remarks, [](const std::string& remark) {
+        return remark.find("percent of the face are holes") != std::string::npos;
+    }));
+}
+
+TEST(AdaptedHead, RefusesAFaceThatIsMostlyHoles) {
+    EXPECT_THROW(adapt_head(momo(), with_hole(scan_of(other_head()), 85)), InputError);
+}
+
+// The drawn skin of the built-in talker, twice, side by side.
+TEST(AdaptedHead, RefusesTwoHeads) {
+    ScanFolder scans;
+    PaintedSurface two = momo().drawn.at(0);
+    const Eigen::Index count = two.mesh.nodes.rows();
+    two.mesh.nodes.conservativeResize(2 * count, 3);
+    two.mesh.nodes.bottomRows(count) =
+        two.mesh.nodes.topRows(count).rowwise() + Eigen::RowVector3d(260, 0, 0);
+    for (std::size_t t = 0, triangles = two.mesh.triangles.size(); t < triangles; ++t) {
+        Triangle other = two.mesh.triangles[t];
+        for (int& node : other) node += static_cast<int>(count);
+        two.mesh.triangles.push_back(other);
+        two.mesh.uv_triangles.push_back(two.mesh.uv_triangles[t]);
+    }
+    scans.postures["neutral"] = std::move(two);
+    scans.view_from_scan = Eigen::Matrix3d::Identity();
+    try {
+        adapt_head(momo(), scans);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.allowed(), "one head to a scan") << error.what();
+    }
+}
+
 TEST(AdaptedHead, RefusesWhatHasNoFace) {
     ScanFolder scans = scan_of(other_head());
     scans.landmarks.clear();
