@@ -137,7 +137,8 @@ std::vector<int> needed_modes(const ConfigurationBasis& basis, const std::vector
     std::vector<int> modes;
     for (RowMatrix rest = left(modes);
          longest_triple(rest) > max_error_mm && modes.size() < kMostStreamComponents; rest = left(modes)) {
-        Eigen::VectorXd taken = (packed * rest.transpose()).rowwise().squaredNorm();
+        Eigen::VectorXd taken = (packed * rest.transpose()).rowwise().squaredNorm().array() /
+                                packed.rowwise().squaredNorm().array();
         for (const int used : modes) taken[used] = -1;
         Index best = 0;
         if (taken.size() == 0 || taken.maxCoeff(&best) <= 0) break;

@@ -28,7 +28,8 @@ StreamDescent::StreamDescent(const SearchProblem& problem, std::vector<int> tick
       tick_(std::move(ticks)),
       values_(std::move(values)),
       response_(control_weights(tick_, problem.tick).cast<float>()),
-      rows_(values_.size()) {
+      rows_(values_.size()),
+      open_(values_.size(), true) {
     for (Index j = 0; j < response_.cols(); ++j) {
         Index from = 0, to = response_.rows();
         while (from < to && response_(from, j) < kSmallResponse) ++from;
@@ -37,6 +38,7 @@ StreamDescent::StreamDescent(const SearchProblem& problem, std::vector<int> tick
         to_.push_back(to);
     }
     for (std::size_t n = 0; n < rows_.size(); ++n) cost_row(n, true);
+    weight_ = Eigen::ArrayXf::Ones(response_.rows());
     refresh();
 }
 
@@ -89,9 +91,13 @@ bool StreamDescent::sweep(std::size_t begin, std::size_t end, double penalty) {
     static constexpr struct {
         std::size_t rows;
         std::array<int, kMostRows> by;
-    } kShapes[] = {{1, {1, 0, 0}}, {2, {1, 1, 0}}, {2, {1, -1, 0}}, {3, {1, 1, 1}}, {3, {1, -1, 1}}};
+    } kShapes[] = {{1, {1, 0}}, {2, {1, 1}}, {2, {1, -1}}};
+    if (penalty != swept_with_) std::fill(open_.begin(), open_.end(), true);
+    swept_with_ = penalty;
     bool moved = false;
     for (std::size_t j = std::max<std::size_t>(begin, problem_->first_fixed); j < end; ++j) {
+        if (!open_[j]) continue;
+        open_[j] = false;
         for (int k = static_cast<int>(problem_->mode_rows.cols()) - 1; k >= 0; --k) {
             for (const auto& shape : kShapes) {
                 if (j + shape.rows > end) break;
@@ -104,15 +110,28 @@ bool StreamDescent::sweep(std::size_t begin, std::size_t end, double penalty) {
     return moved;
 }
 
+bool StreamDescent::sweep_excess(std::size_t begin, std::size_t end) {
+    bool moved = false;
+    for (std::size_t j = begin; j < end; ++j) {
+        if (touches_excess(j)) moved |= sweep_pairs(j, j + 1, kHardPenalty);
+    }
+    settle(begin, end, kHardPenalty, 4);
+    return moved;
+}
+
 void StreamDescent::unblock(std::size_t begin, std::size_t end, int most) {
     for (int i = 0; i < most && !within(); ++i) {
-        bool moved = false;
-        for (std::size_t j = begin; j < end; ++j) {
-            if (touches_excess(j)) moved |= sweep_pairs(j, j + 1, kHardPenalty);
-        }
-        settle(begin, end, kHardPenalty, 4);
-        if (!moved) return;
+        if (!sweep_excess(begin, end)) return;
     }
+}
+
+void StreamDescent::insist(std::size_t begin, std::size_t end, int most) {
+    for (int i = 0; i < most && !within(); ++i) {
+        weight_ = (error_ > kBoundLimit).select(2 * weight_, weight_);
+        std::fill(open_.begin(), open_.end(), true);
+        sweep_excess(begin, end);
+    }
+    weight_.setOnes();
 }
 
 bool StreamDescent::touches_excess(std::size_t j) const {
@@ -129,7 +148,7 @@ bool StreamDescent::sweep_pairs(std::size_t begin, std::size_t end, double penal
         for (int k = 0; k < n; ++k)
             for (int l = k + 1; l < n; ++l)
                 for (const int a : {-1, 1})
-                    for (const int b : {-1, 1}) moved |= tried({j, 1, {1, 0, 0}, k, a, l, b}, penalty);
+                    for (const int b : {-1, 1}) moved |= tried({j, 1, {1, 0}, k, a, l, b}, penalty);
     return moved;
 }
 
@@ -180,9 +199,7 @@ bool StreamDescent::tried(const Change& change, double penalty) {
     }
     const double needed = before - bits(change.first, last + 1) - kGain;
     if (allowed(change) && excess_change(change, needed, penalty) < needed) {
-        const Index n = moved_.size();
-        off_.middleCols(moved_from_, n).noalias() += direction_.matrix() * moved_.matrix().transpose();
-        error_.segment(moved_from_, n) = fresh_;
+        adopt(change);
         return true;
     }
     add(change, -1);
@@ -190,39 +207,55 @@ bool StreamDescent::tried(const Change& change, double penalty) {
     return false;
 }
 
+void StreamDescent::adopt(const Change& change) {
+    const Index n = moved_.size();
+    off_.middleCols(moved_from_, n).noalias() += direction_.matrix() * moved_.matrix().transpose();
+    error_.segment(moved_from_, n) = fresh_;
+    const std::size_t from = change.first > kShared ? change.first - kShared : 0,
+                      to = std::min(change.first + change.rows + kShared, open_.size());
+    std::fill(open_.begin() + static_cast<std::ptrdiff_t>(from),
+              open_.begin() + static_cast<std::ptrdiff_t>(to), true);
+}
+
 void StreamDescent::find_response(const Change& change) {
-    const std::size_t first = change.first, end = first + change.rows;
-    const Index from = *std::min_element(from_.begin() + static_cast<std::ptrdiff_t>(first),
-                                         from_.begin() + static_cast<std::ptrdiff_t>(end)),
-                to = *std::max_element(to_.begin() + static_cast<std::ptrdiff_t>(first),
-                                       to_.begin() + static_cast<std::ptrdiff_t>(end));
-    moved_from_ = from;
-    moved_ = Eigen::ArrayXf::Zero(std::max<Index>(0, to - from));
+    moved_ = Eigen::ArrayXf::Zero(moved_.size());
     for (std::size_t i = 0; i < change.rows; ++i)
-        moved_ += static_cast<float>(change.row_by[i]) *
-                  response_.col(static_cast<Index>(first + i)).segment(from, moved_.size()).array();
+        moved_ +=
+            static_cast<float>(change.row_by[i]) *
+            response_.col(static_cast<Index>(change.first + i)).segment(moved_from_, moved_.size()).array();
     direction_ = static_cast<float>(change.by) * problem_->mode_rows.col(change.k).array();
     if (change.other_by != 0)
         direction_ += static_cast<float>(change.other_by) * problem_->mode_rows.col(change.other_k).array();
 }
 
+// The samples that a change moves, and room for what it makes of them.
+void StreamDescent::find_moved(const Change& change) {
+    const std::size_t last = change.first + change.rows - 1;
+    moved_from_ = std::min(from_[change.first], from_[last]);
+    moved_.resize(std::max<Index>(0, std::max(to_[change.first], to_[last]) - moved_from_));
+    fresh_.resize(moved_.size());
+}
+
 // The change of penalty * excess; stops once it must be over `most`.
 double StreamDescent::excess_change(const Change& change, double most, double penalty) {
-    find_response(change);
+    find_moved(change);
     const Index p = problem_->points(), n = moved_.size();
     // the excess now is what may at most be won
-    double left = (error_.segment(moved_from_, n) - kBoundLimit).max(0.0f).cast<double>().sum();
+    const auto weight = weight_.segment(moved_from_, n);
+    double left = (weight * (error_.segment(moved_from_, n) - kBoundLimit).max(0.0f)).cast<double>().sum();
     double changed = 0;
     if (-penalty * left > most) return -penalty * left;
-    fresh_.resize(n);
-    for (Index i = 0; i < n; ++i) {
+    find_response(change);
+    for (Index step = 0; step < n; ++step) {  // from the middle outwards: there it moves most
+        const Index i = n / 2 + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
         const float a = moved_[i], was = error_[moved_from_ + i];
         const auto off = off_.col(moved_from_ + i).array();
         fresh_[i] = ((off.segment(0, p) + a * direction_.segment(0, p)).square() +
                      (off.segment(p, p) + a * direction_.segment(p, p)).square() +
                      (off.segment(2 * p, p) + a * direction_.segment(2 * p, p)).square())
                         .maxCoeff();
-        const double over = std::max(0.0f, was - kBoundLimit), now = std::max(0.0f, fresh_[i] - kBoundLimit);
+        const double over = weight[i] * std::max(0.0f, was - kBoundLimit),
+                     now = weight[i] * std::max(0.0f, fresh_[i] - kBoundLimit);
         changed += penalty * (now - over);
         left -= over;
         if (changed - penalty * left > most) return changed - penalty * left;

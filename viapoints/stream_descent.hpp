@@ -1,7 +1,7 @@
 // Descent over the whole numbers of a segment's via points at given times, in
 //   bits + penalty * sum over samples of the squared error of the worst point over the bound:
 // one after the other small changes are tried and kept where they lower it. A change moves one or two
-// components of one, two or three neighbouring via points by a step each, together or against each other: a
+// components of one or two neighbouring via points by a step each, together or against each other: a
 // value that is predicted from the ones before is cheaper to move with them.
 #pragma once
 
@@ -23,6 +23,8 @@ class StreamDescent {
     void settle(std::size_t begin, std::size_t end, double penalty, int most);
     // The same with two components at once, where the bound is exceeded, until it is not or nothing helps.
     void unblock(std::size_t begin, std::size_t end, int most);
+    // The same again and again, each time with more weight on the samples that still exceed it [Morris93].
+    void insist(std::size_t begin, std::size_t end, int most);
     bool sweep_pairs(std::size_t begin, std::size_t end, double penalty);
     void refresh();  // all errors from the values, without what rounding has added up
 
@@ -35,8 +37,9 @@ class StreamDescent {
     float error(std::size_t sample) const { return error_[static_cast<Eigen::Index>(sample)]; }
 
   private:
-    static constexpr std::size_t kMostRows = 3;
-    struct Row {  // what a via point costs, and from what
+    static constexpr std::size_t kMostRows = 2;
+    static constexpr std::size_t kShared = 8;  // via points to either side whose samples or costs are shared
+    struct Row {                               // what a via point costs, and from what
         int row_class = 0;
         PredictionSums sums;
         double bits = 0;
@@ -47,14 +50,17 @@ class StreamDescent {
         int k, by, other_k, other_by;  // other_by 0: one component
     };
 
+    bool sweep_excess(std::size_t begin, std::size_t end);
     bool sweep(std::size_t begin, std::size_t end, double penalty);
     bool tried(const Change& change, double penalty);
+    void adopt(const Change& change);
     bool allowed(const Change& change) const;
     void add(const Change& change, int sign);
     void add_to_sums(const Change& change, std::size_t n);
     void cost_row(std::size_t n, bool anew);
     double gap_bits(std::size_t n) const;
     double excess_change(const Change& change, double most, double penalty);
+    void find_moved(const Change& change);
     void find_response(const Change& change);
     bool touches_excess(std::size_t j) const;
 
@@ -65,8 +71,11 @@ class StreamDescent {
     std::vector<Eigen::Index> from_, to_;  // the samples that a via point moves
     Eigen::MatrixXf off_;                  // [3 points x samples], drawn minus wanted, / bound
     Eigen::ArrayXf error_;                 // the largest squared distance of each sample / bound^2
+    Eigen::ArrayXf weight_;                // of each sample's excess
     std::vector<Row> rows_;
-    std::vector<Row> kept_;                     // rows before a change
+    std::vector<bool> open_;  // something near has changed since nothing was won at this via point
+    double swept_with_ = 0;   // the penalty then
+    std::vector<Row> kept_;   // rows before a change
     Eigen::ArrayXf moved_, direction_, fresh_;  // of a change: samples, coordinates, error
     Eigen::Index moved_from_ = 0;
 };

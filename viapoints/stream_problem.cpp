@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kReach = 4;  // via points to either side that settle after a change of times
+constexpr std::size_t kReach = 3;  // via points to either side that settle after a change of times
 constexpr std::size_t kMargin = 9;
 constexpr float kHopeless = 2;    // bounds
 constexpr double kSteady = 1e-3;  // of the normal equations' diagonal, in samples

@@ -1,6 +1,7 @@
 #include "viapoints/stream_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 
 #include "viapoints/stream_descent.hpp"
@@ -10,7 +11,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kNear = 0.1;  // excess at which pairs are worth a try
+constexpr double kNear = 0.1;       // excess at which pairs are worth a try
+constexpr double kLeastWon = 1e-6;  // bits
 
 // Puts via points where the bound is exceeded and there is room, until it holds or there is no more room.
 StreamDescent repaired(const SearchProblem& problem, std::vector<int> ticks, const ViaValues& first) {
@@ -30,17 +32,56 @@ StreamDescent repaired(const SearchProblem& problem, std::vector<int> ticks, con
             }
             if (bad && ticks[i + 1] - ticks[i] > 1) more.push_back((ticks[i] + ticks[i + 1]) / 2);
         }
-        if (more.size() == ticks.size()) return search;
+        if (more.size() == ticks.size()) {
+            search.insist(0, ticks.size(), 12);
+            return search;
+        }
         std::sort(more.begin(), more.end());
         ticks = more;
     }
 }
 
-// The search with other via times around via point j, settled there; taken when it costs less.
-bool try_times(const SearchProblem& problem, StreamDescent& search, std::vector<int> ticks,
-               std::vector<ViaValues> values, std::size_t j) {
-    const SearchWindow w = window_around(ticks, j, problem.first_fixed);
-    const SearchProblem part = part_of(problem, ticks, w);
+// A search within its bound, and which of its via points are worth another try: those about which something
+// has changed since the last one.
+class TimeSearch {
+  public:
+    TimeSearch(const SearchProblem& problem, StreamDescent& search)
+        : problem_(problem), search_(search), rows_(search.ticks().size()) {}
+
+    void thin_out();
+    void shift_times();
+    void polish();
+
+  private:
+    enum Attempt { kThinning, kShifting };
+    struct Row {
+        int changed = 0;
+        std::array<int, 2> tried = {-1, -1};  // by attempt
+    };
+
+    bool worth(std::size_t j, Attempt attempt);
+    bool took(std::vector<int> ticks, std::vector<ViaValues> values, std::size_t j);
+
+    const SearchProblem& problem_;
+    StreamDescent& search_;
+    std::vector<Row> rows_;
+    int now_ = 0;
+};
+
+bool TimeSearch::worth(std::size_t j, Attempt attempt) {
+    constexpr std::size_t kNearby = 8;
+    int& tried = rows_[j].tried[attempt];
+    bool changed = false;
+    for (std::size_t n = j > kNearby ? j - kNearby : 0; n < std::min(j + kNearby + 1, rows_.size()); ++n)
+        changed |= rows_[n].changed > tried;
+    tried = now_++;
+    return changed;
+}
+
+// Other via times around via point j, settled there; taken when they cost less.
+bool TimeSearch::took(std::vector<int> ticks, std::vector<ViaValues> values, std::size_t j) {
+    const SearchWindow w = window_around(ticks, j, problem_.first_fixed);
+    const SearchProblem part = part_of(problem_, ticks, w);
     const auto cut = [&](const auto& rows) {
         return std::decay_t<decltype(rows)>(rows.begin() + static_cast<std::ptrdiff_t>(w.first),
                                             rows.begin() + static_cast<std::ptrdiff_t>(w.last));
@@ -51,50 +92,58 @@ bool try_times(const SearchProblem& problem, StreamDescent& search, std::vector<
     if (part.tick.empty()) return false;
     fit_between(part, own_ticks, own_values, begin, end);
     StreamDescent other(part, std::move(own_ticks), std::move(own_values));
+    const std::size_t touched = std::min(w.end + 2, ticks.size()), behind = ticks.size() - touched;
+    const double most = search_.bits(w.begin, search_.ticks().size() - behind) - kLeastWon;
+    const auto bits = [&] { return other.bits(begin, touched - w.first); };
     other.settle(begin, end, kSoftPenalty, 4);
+    if (bits() + kSoftPenalty * other.excess() >= most) return false;
     if (!other.within() && other.excess() < 1.0) other.settle(begin, end, kHardPenalty, 4);
     if (!other.within() && other.excess() < kNear) other.unblock(begin, end, 2);
-    if (!other.within()) return false;
-    const std::size_t touched = std::min(w.end + 2, ticks.size()), behind = ticks.size() - touched;
-    if (other.bits(begin, touched - w.first) >= search.bits(w.begin, search.ticks().size() - behind) - 1e-6)
-        return false;
+    if (!other.within() || bits() >= most) return false;
     std::copy(other.values().begin() + static_cast<std::ptrdiff_t>(begin),
               other.values().begin() + static_cast<std::ptrdiff_t>(end),
               values.begin() + static_cast<std::ptrdiff_t>(w.begin));
-    search = StreamDescent(problem, std::move(ticks), std::move(values));
+    if (ticks.size() < rows_.size()) rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(j));
+    for (std::size_t n = w.begin; n < w.end; ++n) rows_[n].changed = now_;
+    search_ = StreamDescent(problem_, std::move(ticks), std::move(values));
     return true;
 }
 
 // Each via point but those of the ends: taken out where that costs less.
-void thin_out(const SearchProblem& problem, StreamDescent& search) {
-    for (std::size_t j = inner_begin(search.ticks()); j < inner_end(search.ticks());) {
-        std::vector<int> ticks = search.ticks();
-        std::vector<ViaValues> values = search.values();
+void TimeSearch::thin_out() {
+    for (std::size_t j = inner_begin(search_.ticks()); j < inner_end(search_.ticks());) {
+        std::vector<int> ticks = search_.ticks();
+        std::vector<ViaValues> values = search_.values();
         ticks.erase(ticks.begin() + static_cast<std::ptrdiff_t>(j));
         values.erase(values.begin() + static_cast<std::ptrdiff_t>(j));
-        const bool allowed = ticks[j] - ticks[j - 1] <= kMostGapTicks;
-        if (!allowed || !try_times(problem, search, std::move(ticks), std::move(values), j)) ++j;
+        const bool allowed = ticks[j] - ticks[j - 1] <= kMostGapTicks && worth(j, kThinning);
+        if (!allowed || !took(std::move(ticks), std::move(values), j)) ++j;
     }
 }
 
 // Each via point but those of the ends: moved by a tick where that costs less.
-void shift_times(const SearchProblem& problem, StreamDescent& search) {
-    for (std::size_t j = inner_begin(search.ticks()); j < inner_end(search.ticks()); ++j) {
+void TimeSearch::shift_times() {
+    for (std::size_t j = inner_begin(search_.ticks()); j < inner_end(search_.ticks()); ++j) {
+        if (!worth(j, kShifting)) continue;
         for (const int by : {-1, 1}) {
-            std::vector<int> ticks = search.ticks();
+            std::vector<int> ticks = search_.ticks();
             ticks[j] += by;
             if (ticks[j] <= ticks[j - 1] || ticks[j] >= ticks[j + 1]) continue;
-            if (try_times(problem, search, std::move(ticks), search.values(), j)) break;
+            if (took(std::move(ticks), search_.values(), j)) break;
         }
     }
 }
 
-void polish(StreamDescent& search) {
-    const std::size_t all = search.ticks().size();
-    search.settle(0, all, kSoftPenalty, 6);
-    search.sweep_pairs(0, all, kHardPenalty);
-    search.settle(0, all, kHardPenalty, 6);
-    search.refresh();
+void TimeSearch::polish() {
+    const StreamDescent kept = search_;
+    const std::size_t all = kept.values().size();
+    search_.settle(0, all, kSoftPenalty, 6);
+    search_.sweep_pairs(0, all, kHardPenalty);
+    search_.settle(0, all, kHardPenalty, 6);
+    search_.refresh();
+    if (!search_.within() || search_.bits() > kept.bits()) search_ = kept;
+    for (std::size_t n = 0; n < all; ++n)
+        if (search_.values()[n] != kept.values()[n]) rows_[n].changed = now_;
 }
 
 }  // namespace
@@ -106,11 +155,12 @@ QuantisedSegment search_segment(const SegmentTarget& target, const Eigen::Matrix
     const SearchProblem problem = problem_of(target, modes, cost, options, !first.empty());
     if (hopeless(problem, ticks)) return {ticks, fitted(problem, ticks, first)};
     StreamDescent search = repaired(problem, std::move(ticks), first);
+    TimeSearch times(problem, search);
     for (int round = 0; round < options.rounds && search.within(); ++round) {
         const double before = search.bits();
-        thin_out(problem, search);
-        shift_times(problem, search);
-        polish(search);
+        times.thin_out();
+        times.shift_times();
+        times.polish();
         if (search.bits() > before - 1) break;
     }
     return {search.ticks(), search.values()};

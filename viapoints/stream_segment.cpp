@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "viapoints/analysis.hpp"
 #include "viapoints/measured.hpp"
 
 namespace viaface {
@@ -14,31 +13,22 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kAnalysedShare = 0.5;  // of the bound, of the analysis that a search starts from
-constexpr double kSearchedRate = 60;    // samples per second that a search looks at first
-constexpr double kRestingSpeed = 30;    // bounds per second: what moves slower at an end may rest there
-constexpr int kMostNarrower = 3;        // times that the bound is drawn in for samples in between
+constexpr double kFirstRate = 7.5;    // via points per second that a search starts from
+constexpr double kSearchedRate = 60;  // samples per second that a search looks at first
+constexpr double kRestingSpeed = 30;  // bounds per second: what moves slower at an end may rest there
+constexpr int kMostNarrower = 3;      // times that the bound is drawn in for samples in between
 
 Eigen::MatrixXd packed_modes(const StreamTools& tools) {
     return coordinates_of(tools.basis.modes.transpose(), tools.head.points).transpose();
 }
 
-// The via times of an analysis of what the segment holds, on the grid.
-std::vector<int> analysed_ticks(const Motion& motion, const StreamHead& head, const CutSegment& cut,
-                                bool first_moves, bool last_moves) {
+// Even via times.
+std::vector<int> first_ticks(const StreamHead& head, const CutSegment& cut, bool first_moves,
+                             bool last_moves) {
     const auto length = static_cast<int>(cut.last_tick - cut.first_tick);
+    const int gap = std::max(1, static_cast<int>(std::lround(head.ticks_per_s / kFirstRate)));
     std::vector<int> ticks(first_moves ? 3 : 1);
-    if (cut.samples >= 2) {
-        const auto first = motion.time_s.begin() + static_cast<std::ptrdiff_t>(cut.first_sample);
-        const Motion own{{first, first + static_cast<std::ptrdiff_t>(cut.samples)},
-                         motion.positions.middleRows(static_cast<Index>(cut.first_sample),
-                                                     static_cast<Index>(cut.samples))};
-        for (const double time : analyse(own, {.max_error_mm = kAnalysedShare * head.bound_mm}).time_s) {
-            const auto tick = static_cast<int>(std::lround(tick_of(head, time) - cut.first_tick));
-            if (tick > ticks.back() && tick < length) ticks.push_back(tick);
-        }
-    }
-    while (length - ticks.back() > kMostGapTicks) ticks.push_back(ticks.back() + kMostGapTicks);
+    for (int tick = gap; tick < length; tick += gap) ticks.push_back(tick);
     ticks.insert(ticks.end(), last_moves ? 3 : 1, length);
     return ticks;
 }
@@ -121,8 +111,7 @@ ViaValues SegmentEncoder::first_values(int finer) const {
 SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const {
     SegmentVia found{{}, finer};
     SearchOptions options{tools_.head.bound_mm, step_of(tools_.head, finer), rounds_};
-    const std::vector<int> ticks =
-        analysed_ticks(motion, tools_.head, cut, ends.first_moves, ends.last_moves);
+    const std::vector<int> ticks = first_ticks(tools_.head, cut, ends.first_moves, ends.last_moves);
     std::size_t stride = stride_of(motion, cut);
     for (int tries = 0;; ++tries) {
         const SegmentTarget target = target_of(motion, tools_.head, tools_.basis.mean, cut, stride);

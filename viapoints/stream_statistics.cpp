@@ -6,10 +6,8 @@
 namespace viaface {
 namespace {
 
-constexpr int kWeightBits = 12;
-constexpr std::int64_t kWeightOne = 1 << kWeightBits;
 constexpr std::uint16_t kRarely =
-    1966;  // of 65536, that a component which the table lacks is not as predicted
+    655;  // of 65536, that a component which the table lacks is not as predicted
 constexpr std::uint8_t kRarelySeen = 20;
 
 }  // namespace
@@ -34,14 +32,6 @@ std::int64_t StreamStatistics::prediction_sum(int j, int row, const ViaPast& pas
 
 Prediction StreamStatistics::predict(int j, int row, const ViaPast& past, const ViaValues& now) const {
     return rounded_prediction(prediction_sum(j, row, past, now));
-}
-
-Prediction rounded_prediction(std::int64_t sum) {
-    constexpr std::int64_t kMost = kLargestValue * kWeightOne;
-    sum = std::clamp(sum, -kMost, kMost);
-    const std::int64_t nearest = (sum + kWeightOne / 2) >> kWeightBits;
-    const std::int64_t off = sum - nearest * kWeightOne;
-    return {static_cast<std::int32_t>(nearest), off > kWeightOne / 6 ? 1 : off < -kWeightOne / 6 ? 2 : 0};
 }
 
 StreamStatistics plain_statistics(int components) {

@@ -9,6 +9,7 @@
 // a sign, and a count in unary, each with the probability that its surroundings give.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -49,7 +50,18 @@ struct Prediction {
     std::int32_t nearest = 0;
     int side = 0;  // 0: the nearest is about right, 1: a little more is likely, 2: a little less
 };
-Prediction rounded_prediction(std::int64_t sum);  // in 1/4096
+
+inline constexpr int kWeightBits = 12;
+inline constexpr std::int64_t kWeightOne = 1 << kWeightBits;
+
+// Of a sum in 1/4096.
+inline Prediction rounded_prediction(std::int64_t sum) {
+    constexpr std::int64_t kMost = kLargestValue * kWeightOne;
+    sum = std::clamp(sum, -kMost, kMost);
+    const std::int64_t nearest = (sum + kWeightOne / 2) >> kWeightBits;
+    const std::int64_t off = sum - nearest * kWeightOne;
+    return {static_cast<std::int32_t>(nearest), off > kWeightOne / 6 ? 1 : off < -kWeightOne / 6 ? 2 : 0};
+}
 
 struct ValueContexts {
     static constexpr int kActivities = 3;
