@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "facemodel/face.hpp"
-
 namespace viaface {
 namespace {
 
@@ -12,8 +10,6 @@ using raster::Bounds;
 using raster::Place;
 
 constexpr std::int32_t kNear = raster::kSteps;  // from an outline, either way
-
-bool smooth_skin(const raster::Facet& facet) { return Material(facet.material) == Material::kSkin; }
 
 // The way from `a` to `b` at a height, upwards.
 std::int32_t along(const Place& a, const Place& b, std::int32_t height) {
@@ -33,11 +29,8 @@ FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const in
       bits_(std::size_t(words_) * height) {
     std::map<std::pair<int, int>, std::size_t> known;  // edges by their welded nodes
     for (int i = 0; i < int(facets.size()); ++i) {
-        if (facets[i].shade != raster::Shade::kSkin) {
-            covering_.push_back(i);
-            continue;
-        }
-        if (!smooth_skin(facets[i])) covering_.push_back(i);
+        if (facets[i].fine) covering_.push_back(i);
+        if (facets[i].shade != raster::Shade::kSkin) continue;
         for (int k = 0; k < 3; ++k) {
             const int from = facets[i].node[k], to = facets[i].node[(k + 1) % 3];
             const auto [at, fresh] = known.try_emplace(std::minmax(weld[from], weld[to]), edges_.size());
@@ -48,7 +41,7 @@ FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const in
         }
     }
     std::erase_if(edges_, [&](const Edge& edge) {
-        return std::ranges::none_of(edge.facets, [&](int i) { return i != kNone && smooth_skin(facets[i]); });
+        return std::ranges::none_of(edge.facets, [&](int i) { return i != kNone && !facets[i].fine; });
     });
 }
 

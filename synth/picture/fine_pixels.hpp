@@ -1,6 +1,6 @@
 // Pixels in which more than one surface may be seen, so that they take several samples: those near an outline
-// of the skin, that is an edge whose other triangle is missing or turned away, and all that any other
-// material may cover, the lips included, as those run into each other and into the skin.
+// of the skin, that is an edge whose other triangle is missing or turned away, and all that facets may cover
+// which are fine throughout: those of other materials and of the lips, which run into each other.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class FinePixels {
 
     std::span<const raster::Facet> facets_;
     std::vector<Edge> edges_;
-    std::vector<int> covering_;  // facets all of whose pixels are fine
+    std::vector<int> covering_;  // facets that are fine throughout
     int width_, height_, words_;
     std::vector<std::uint64_t> bits_;
 };

@@ -104,15 +104,18 @@ class StripeDrawing {
     std::int32_t settle() {
         const Front middles = scratch_.middles, samples = scratch_.samples;
         for (std::int32_t i = 0; i < stripe_.count; ++i) {
-            if (scene_.facets[stripe_.facets[i]].shade == Shade::kLash) return i;
+            const Facet& facet = scene_.facets[stripe_.facets[i]];
+            if (facet.shade == Shade::kLash) return i;
             const Prepared p = prepare(i);
             if (!p.drawn) continue;
             const WideInt id = wide(i + 1);
-            for_pixels(
-                p, scratch_.surfaces[i], kMiddles, AllPixels(),
-                [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness) __attribute__((
-                    always_inline)) { keep_nearer(middles, middle_of(x, y), id, outside, nearness); });
-            if (!any_fine(p.bounds)) continue;
+            if (!facet.fine) {
+                for_pixels(
+                    p, scratch_.surfaces[i], kMiddles, AllPixels(),
+                    [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness) __attribute__((
+                        always_inline)) { keep_nearer(middles, middle_of(x, y), id, outside, nearness); });
+                if (!any_fine(p.bounds)) continue;
+            }
             for_pixels(
                 p, scratch_.surfaces[i], kTwoPixels,
                 [&](std::int32_t x, std::int32_t y) __attribute__((always_inline)) { return fine(x, y); },

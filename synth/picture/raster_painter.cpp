@@ -48,7 +48,8 @@ std::vector<raster::Facet> facets_of(const Face& face) {
                               static_cast<std::uint8_t>(material),
                               shade_of(material),
                               inside_mouth(material),
-                              two_sided(material)});
+                              two_sided(material),
+                              material != Material::kSkin});
         }
     }
     return facets;

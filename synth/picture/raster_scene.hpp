@@ -60,6 +60,7 @@ struct Facet {
     Shade shade;
     bool inside;  // seen through the opening alone
     bool two_sided;
+    bool fine;  // in fine pixels alone
 };
 
 struct Bounds {

@@ -27,8 +27,12 @@ struct Sheet {
         }
         for (const auto& [a, b, c] :
              {std::array{0, 1, 4}, std::array{0, 4, 3}, std::array{1, 2, 5}, std::array{1, 5, 4}})
-            facets.push_back(
-                {{a, b, c}, std::uint8_t(material), shade, shade == raster::Shade::kInside, false});
+            facets.push_back({{a, b, c},
+                              std::uint8_t(material),
+                              shade,
+                              shade == raster::Shade::kInside,
+                              false,
+                              material != Material::kSkin});
     }
 
     bool fine(int x, int y, const raster::Bounds& opening = {0, 0, kWidth, kHeight}) const {
