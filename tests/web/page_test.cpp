@@ -58,6 +58,16 @@ class Page : public testing::Test {
     std::unique_ptr<WebDriver> browser_;
 };
 
+TEST_F(Page, ATalkerComesWithTheVoiceOfTheirOwn) {
+    WebDriver& browser = *browser_;
+    ASSERT_TRUE(browser.wait_until("document.querySelectorAll('#talker option').length === 4", 20));
+    EXPECT_EQ(browser.run("return document.querySelector('#voice').value;"), "rms");
+    browser.run(
+        "const talker = document.querySelector('#talker'); talker.value = 'amara';"
+        "talker.dispatchEvent(new Event('change'));");
+    EXPECT_EQ(browser.run("return document.querySelector('#voice').value;"), "slt");
+}
+
 TEST_F(Page, AClickSpeaksAndTheVideoPlaysWithSound) {
     WebDriver& browser = *browser_;
     click_speak();
