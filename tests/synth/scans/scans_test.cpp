@@ -250,5 +250,21 @@ TEST(ScanFolder, NamesFileLineAndValueOfWhatIsWrong) {
     EXPECT_NE(error_of(folder).find("neutral"), std::string::npos);
 }
 
+TEST(ScanFolder, RefusesMorePointsThanItTakes) {
+    const Folder folder;
+    folder.write("head.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 12000001\nproperty float x\nproperty float y\n"
+                 "property float z\nend_header\n0 0 0\n");
+    EXPECT_NE(error_of(folder).find("at most 12000000"), std::string::npos) << error_of(folder);
+}
+
+TEST(ScanFolder, SaysThatOtherPosturesAreNotUsed) {
+    const Folder folder;
+    folder.write("head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("scans.json", R"({"postures": {"neutral": "head.obj", "a": "head.obj"}})");
+    const auto remarks = read_scan_folder(folder.path).remarks;
+    EXPECT_EQ(std::ranges::count(remarks, "posture a is not used: the modes are borrowed"), 1);
+}
+
 }  // namespace
 }  // namespace viaface
