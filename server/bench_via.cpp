@@ -1,5 +1,6 @@
 #include "server/bench_via.hpp"
 
+#include <atomic>
 #include <cstdio>
 #include <future>
 
@@ -22,12 +23,18 @@ struct Row {
 
 double per_second(double bits, const Row& row) { return bits / row.stream.seconds; }
 
+void tell(const std::string& motion, double bound_mm, const char* step) {
+    std::fprintf(stderr, "%s, %g mm: %s\n", motion.c_str(), bound_mm, step);
+}
+
 Row measured(const BenchMotion& motion, const Motion& training, const StreamModel* model, double bound_mm) {
+    tell(motion.name, bound_mm, "searching its via points");
     Row row{motion.name,
             bound_mm,
             encode_stream(motion.motion, model, {.max_error_mm = bound_mm}).account,
             {},
             {}};
+    tell(motion.name, bound_mm, "searching the baselines");
     const ConfigurationBasis own = principal_basis(motion.motion.positions, 10);  // in the baselines' favour
     row.dct = dct_bits(motion.motion, training, own, bound_mm);
     row.xz = delta_xz_bits(motion.motion, own, bound_mm);
@@ -62,16 +69,25 @@ void describe(const BenchMotion& motion) {
 
 // Statistics and basis from the other take, and the basis from the talker's shapes.
 Row phrase_row(const BenchMotion& take, const BenchMotion& other, const RowMatrix& shapes, double bound_mm) {
+    tell(take.name, bound_mm, "learning from the other take");
     const StreamModel model =
         learn_stream_model("bench", {other.motion}, {.bounds_mm = {bound_mm}, .also = shapes});
     return measured(take, other.motion, &model, bound_mm);
 }
 
-void phrase_rows(const std::vector<BenchMotion>& takes, const RowMatrix& shapes, double bound_mm) {
-    auto second =
-        std::async(std::launch::async, [&] { return phrase_row(takes[1], takes[0], shapes, bound_mm); });
-    print(phrase_row(takes[0], takes[1], shapes, bound_mm));
-    print(second.get());
+using RowToCome = std::packaged_task<Row()>;
+
+// Two rows at a time; each is printed when it and all before it are there.
+void print_rows(std::vector<RowToCome>& rows) {
+    std::vector<std::future<Row>> measured;
+    for (RowToCome& row : rows) measured.push_back(row.get_future());
+    std::atomic<std::size_t> next = 0;
+    const auto measure = [&] {
+        for (std::size_t i = next++; i < rows.size(); i = next++) rows[i]();
+    };
+    const auto first = std::async(std::launch::async, measure),
+               second = std::async(std::launch::async, measure);
+    for (auto& row : measured) print(row.get());
 }
 
 int run(const std::string& name, const std::filesystem::path& data, bool full) {
@@ -92,12 +108,17 @@ int run(const std::string& name, const std::filesystem::path& data, bool full) {
     const auto model = find_stream_model(talkers_folder() / name);
     const std::vector<double> bounds =
         full ? std::vector<double>{0.25, 0.5, 1, 2, 4} : std::vector<double>{1};
+    const auto& takes = motions.phrase_takes;
+    std::vector<RowToCome> rows;
     for (const double bound : bounds) {
-        if (!motions.phrase_takes.empty()) phrase_rows(motions.phrase_takes, shapes, bound);
-        if (!full && !motions.phrase_takes.empty()) continue;
+        for (std::size_t i = 0; i < takes.size(); ++i)
+            rows.emplace_back([&, i, bound] { return phrase_row(takes[i], takes[1 - i], shapes, bound); });
+        if (!full && !takes.empty()) continue;
         for (const BenchMotion& motion : motions.others)
-            print(measured(motion, motion.motion, model ? &*model : nullptr, bound));
+            rows.emplace_back(
+                [&, bound] { return measured(motion, motion.motion, model ? &*model : nullptr, bound); });
     }
+    print_rows(rows);
     return 0;
 }
 
