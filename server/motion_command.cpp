@@ -32,7 +32,7 @@ void write_motion(const std::string& output, const Motion& motion) {
 
 int run_convert(const ConvertOptions& options) {
     const auto talker = talker_at(options.talker);
-    const MotionInput read = read_motion(options.motion.file, *talker, options.motion.parsed());
+    const MotionInput read = read_motion(options.motion.file, *talker, options.motion.parsed(options.talker));
     for (const std::string& line : read.report) std::cout << line << "\n";
     if (options.output.empty()) return 0;
     write_motion(options.output, read.motion);

@@ -1,8 +1,7 @@
 #include "server/motion_options.hpp"
 
 #include "base/error.hpp"
-#include "server/commands.hpp"
-#include "synth/talker/stream_models.hpp"
+#include "server/via_models.hpp"
 #include "viapoints/cells.hpp"
 
 namespace viaface {
@@ -40,7 +39,7 @@ Whose whose_of(const std::string& text) {
 
 }  // namespace
 
-MotionInputOptions MotionOptions::parsed() const {
+MotionInputOptions MotionOptions::parsed(const std::string& talker) const {
     MotionInputOptions input;
     if (!unit.empty() && !millimetres_per(unit)) throw InputError("--unit", unit, "mm, cm or m");
     if (!(longest_gap >= 0)) throw InputError("--longest-gap", std::to_string(longest_gap), "s, from 0");
@@ -53,7 +52,7 @@ MotionInputOptions MotionOptions::parsed() const {
     input.person.axes = axes;
     if (!rest.empty()) input.person.rest_s = span_of(rest);
     if (!scale.empty()) input.person.scale = scale_of(scale);
-    input.stream_models = all_stream_models(talkers_folder());
+    input.stream_models = drawn_stream_models(talker);
     return input;
 }
 

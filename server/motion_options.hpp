@@ -13,8 +13,8 @@ struct MotionOptions {
     double longest_gap = 0.2;
     bool leave_gaps = false;
 
-    // InputError naming the option.
-    MotionInputOptions parsed() const;
+    // InputError naming the option. `talker` is whose face it moves.
+    MotionInputOptions parsed(const std::string& talker) const;
 };
 
 void add_motion_options(CLI::App& app, MotionOptions& options);

@@ -62,6 +62,18 @@ json got(const std::string& summary, const std::string& type, json schema) {
 
 json example(const char* summary, json value) { return {{"summary", summary}, {"value", std::move(value)}}; }
 
+// Of the query, beside a stream of via points.
+json drawing_parameters() {
+    const json fields = video_fields();
+    json parameters = json::array();
+    for (const char* name : kDrawingFields)
+        parameters.push_back({{"name", name},
+                              {"in", "query"},
+                              {"description", "beside a stream of via points alone; a JSON body has its own"},
+                              {"schema", fields.at(name)}});
+    return parameters;
+}
+
 json videos() {
     json answer = {
         {"description", "The film, sent while it is made. One that fails is cut without its closing chunk."}};
@@ -83,8 +95,9 @@ json videos() {
     body["content"][kViaType] = json::object();
     body["description"] =
         body["description"].get<std::string>() +
-        "; a stream of via points is drawn as it moves, without sound, at 512x512 and 30 frames "
-        "per second as MP4";
+        "; a stream of via points is drawn as it moves, without sound, as the query asks, by the talker "
+        "that it names when no other is asked for";
+    route["post"]["parameters"] = drawing_parameters();
     route["post"]["responses"]["415"] =
         problem_response("The body is neither application/json nor " + std::string(kViaType) + ".");
     return route;
@@ -99,8 +112,10 @@ json viapoints() {
                         std::string(kViaType) + " as a stream, within 1 mm, with phones"},
                    {"content", content(kJsonType, reference("ViaPoints"))}};
     answer["content"][kViaType] = json::object();
-    return posted("The via points that the face would pass, with words and phones", "Speech", examples,
-                  answer);
+    json route =
+        posted("The via points that the face would pass, with words and phones", "Speech", examples, answer);
+    route["post"]["responses"]["406"] = problem_response("The client accepts neither type of answer.");
+    return route;
 }
 
 json self() {

@@ -68,7 +68,8 @@ class Output {
 
 RenderReport from_file(RenderOptions& options, const Talker& talker) {
     RenderRequest& request = options.request;
-    const MotionInput moving = read_motion(options.motion.file, talker, options.motion.parsed());
+    const MotionInput moving =
+        read_motion(options.motion.file, talker, options.motion.parsed(options.talker));
     if (!options.quiet) {
         for (const std::string& line : moving.report) std::fprintf(stderr, "%s\n", line.c_str());
     }
@@ -93,8 +94,10 @@ RenderReport from_stdin(const RenderOptions& options, const Talker& talker) {
     };
     RenderReport report;
     if (begins_via(std::cin)) {
-        const StreamModelsAtHand models("");
-        LiveVia rows(std::cin, models.all());
+        const std::vector<StreamModel> models = drawn_stream_models(options.talker);
+        std::vector<const StreamModel*> own;
+        for (const StreamModel& model : models) own.push_back(&model);
+        LiveVia rows(std::cin, own);
         report = drawn(rows);
         std::fputs(rows.describe_damage().c_str(), stderr);
     } else {

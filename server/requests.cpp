@@ -36,7 +36,6 @@ void read_speech(JsonFields& fields, VideoRequest& request) {
 }
 
 void read_view(JsonFields& fields, View& view) {
-    if (const auto size = fields.text("size")) set_size(view, *size);
     const auto object = fields.object("view");
     if (!object) return;
     JsonFields angles(*object, "view");
@@ -60,6 +59,24 @@ FilmFormat stream_format(const std::string& name) {
         allowed += (allowed.empty() ? "" : " or ") + known;
     }
     throw InputError("format", name, allowed);
+}
+
+void read_film(JsonFields& fields, VideoRequest& request) {
+    if (const auto size = fields.text("size")) set_size(request.say.view, *size);
+    if (const auto fps = fields.number("fps")) request.say.fps = frame_rate(*fps);
+    if (const auto format = fields.text("format")) request.format = stream_format(*format);
+    take(fields.whole_number("seed"), request.say.seed);
+}
+
+// Values that JSON would hold as numbers are numbers.
+nlohmann::json json_of(const Query& query) {
+    nlohmann::json body = nlohmann::json::object();
+    for (const auto& [name, value] : query) {
+        if (body.contains(name)) throw InputError(name, value, "one value, not several");
+        const auto number = nlohmann::json::parse(value, nullptr, false);
+        body[name] = number.is_number() && name != "talker" ? number : nlohmann::json(value);
+    }
+    return body;
 }
 
 }  // namespace
@@ -92,12 +109,22 @@ VideoRequest video_request_of(const nlohmann::json& body) {
     VideoRequest request;
     JsonFields fields(body, "");
     read_speech(fields, request);
+    read_film(fields, request);
     read_view(fields, request.say.view);
-    if (const auto fps = fields.number("fps")) request.say.fps = frame_rate(*fps);
-    if (const auto format = fields.text("format")) request.format = stream_format(*format);
-    take(fields.whole_number("seed"), request.say.seed);
     fields.refuse_unknown();
     check(request.say.view);
+    validate(film_of(request));
+    return request;
+}
+
+VideoRequest drawing_request_of(const Query& query, const std::string& talker) {
+    VideoRequest request;
+    request.talker = talker;
+    const nlohmann::json body = json_of(query);
+    JsonFields fields(body, "");
+    take(fields.text("talker"), request.talker);
+    read_film(fields, request);
+    fields.refuse_unknown();
     validate(film_of(request));
     return request;
 }

@@ -1,6 +1,8 @@
 // What a request of the service or of the command line asks for.
 #pragma once
 
+#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -41,5 +43,11 @@ std::vector<std::string> stream_formats();  // "mp4", ...
 // field.
 VideoRequest video_request_of(const nlohmann::json& body);
 VideoRequest viapoints_request_of(const nlohmann::json& body);
+
+// The query of POST /v1/videos with a stream for a body: fields of a video that concern its drawing, each at
+// most once, as in JSON. `talker` draws when none is named.
+using Query = std::multimap<std::string, std::string>;
+VideoRequest drawing_request_of(const Query& query, const std::string& talker);
+inline constexpr std::array kDrawingFields = {"talker", "size", "fps", "format", "seed"};
 
 }  // namespace viaface

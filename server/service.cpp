@@ -4,11 +4,13 @@
 #undef _res  // <resolv.h> makes this a macro, which Eigen uses as a name
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <optional>
 #include <thread>
 
+#include "server/accept.hpp"
 #include "server/admission.hpp"
 #include "server/film_stream.hpp"
 #include "server/http_body.hpp"
@@ -36,6 +38,18 @@ void answer(httplib::Response& response, const Problem& problem) {
     response.status = problem.status;
     if (problem.status == 503) response.set_header("Retry-After", std::to_string(kRetryAfter));
     response.set_content(problem.body.dump(), kProblemType);
+}
+
+// Of what via points are answered as.
+std::string_view accepted_type(const httplib::Request& request) {
+    constexpr std::array<std::string_view, 2> kOffered = {kJsonType, kViaType};
+    std::string accept;
+    const auto [first, last] = request.headers.equal_range("Accept");
+    for (auto header = first; header != last; ++header)
+        accept += (accept.empty() ? "" : ", ") + header->second;
+    if (const auto type = preferred_type(accept, kOffered)) return *type;
+    throw HttpError(406, "Not Acceptable",
+                    "\"" + accept + "\" holds neither " + kJsonType + " nor " + kViaType);
 }
 
 // What a job needs until its stream ends.
@@ -169,8 +183,10 @@ class Service::Routes {
         post("/v1/videos", [this](const auto& request, auto& response, const auto& reader) {
             auto job = std::make_shared<VideoJob>();
             if (body_type(request) == kViaType) {
-                job->talker = shelf_.load(kDefaultTalker);
-                job->moving = streamed_motion(via_body(request, reader), *job->talker, models_);
+                const Bytes stream = via_body(request, reader);
+                job->request = drawing_request_of(request.params, talker_of(stream));
+                job->talker = shelf_.load(job->request.talker);
+                job->moving = streamed_motion(stream, *job->talker, models_);
             } else {
                 job->request = video_request_of(json_body(request, reader));
                 job->talker = shelf_.load(job->request.talker);
@@ -184,6 +200,7 @@ class Service::Routes {
                 [this, job](std::size_t, httplib::DataSink& client) { return stream(*job, client); });
         });
         post("/v1/viapoints", [this](const auto& request, auto& response, const auto& reader) {
+            const bool as_stream = accepted_type(request) == kViaType;
             VideoRequest asked = viapoints_request_of(json_body(request, reader));
             const auto talker = shelf_.load(asked.talker);
             settle_voice(asked, *talker);
@@ -191,7 +208,7 @@ class Service::Routes {
             const auto place = admission_.reserve();
             if (!place->wait_for_turn([this] { return !stopping_; }))
                 throw HttpError(503, "Service Unavailable", "the service stops");
-            if (request.get_header_value("Accept") == kViaType) {
+            if (as_stream) {
                 const auto model = std::ranges::find(models_, talker->name(), &StreamModel::name);
                 const Bytes stream =
                     spoken_stream(script, *talker, model == models_.end() ? nullptr : &*model);
@@ -214,7 +231,8 @@ class Service::Routes {
             say(job.request.say, *job.talker, film);
             return;
         }
-        RenderRequest request{.view = job.request.say.view, .fps = job.request.say.fps};
+        RenderRequest request{
+            .view = job.request.say.view, .fps = job.request.say.fps, .seed = job.request.say.seed};
         request.from_s = job.moving->motion.time_s.front();
         render(request, *job.moving, Sound{}, *job.talker, film);
     }

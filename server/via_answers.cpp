@@ -1,7 +1,6 @@
 #include "server/via_answers.hpp"
 
 #include "base/error.hpp"
-#include "viapoints/via_chunks.hpp"
 #include "viapoints/via_stream.hpp"
 
 namespace viaface {
@@ -39,14 +38,18 @@ Bytes spoken_stream(const Script& script, const Talker& talker, const StreamMode
     return encode_stream(motion, model, {.max_error_mm = kAnsweredBound, .rounds = 1}, phones).bytes;
 }
 
-MotionInput streamed_motion(const Bytes& stream, const Talker& talker, std::vector<StreamModel> models) {
+std::string talker_of(const Bytes& stream) {
     try {
-        ByteReader reader(stream);
-        read_via_header(reader, stream, ViaKind::kStream);
+        const std::string named = peek_stream_head(stream).talker;
+        return named.empty() ? kDefaultTalker : named;
     } catch (const std::runtime_error& error) {
         throw InputError("stream", std::to_string(stream.size()) + " bytes",
                          std::string("a stream of via points: ") + error.what());
     }
+}
+
+MotionInput streamed_motion(const Bytes& stream, const Talker& talker, std::vector<StreamModel> models) {
+    std::erase_if(models, [&](const StreamModel& model) { return model.name != talker.name(); });
     MotionInputOptions options;
     options.stream_models = std::move(models);
     return motion_of(stream, "stream", talker, options);

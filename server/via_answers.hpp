@@ -13,6 +13,10 @@ inline constexpr double kAnsweredBound = 1;  // mm, of a stream that answers
 // of its own.
 Bytes spoken_stream(const Script& script, const Talker& talker, const StreamModel* model);
 
+// Who draws a stream when nobody is asked for: the talker that it names, else the default one.
+// InputError("stream", ...) for bytes that are none.
+std::string talker_of(const Bytes& stream);
+
 // A stream as motion to be drawn: InputError("stream", ...) for bytes that are none or name a talker whose
 // model is not among `models`.
 MotionInput streamed_motion(const Bytes& stream, const Talker& talker, std::vector<StreamModel> models);

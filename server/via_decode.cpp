@@ -16,7 +16,7 @@ namespace viaface {
 namespace {
 
 struct Options {
-    std::string stream, output, model;
+    std::string stream, output, talker, model;
     double rate_hz = 100;
     bool live = false;
 };
@@ -32,7 +32,7 @@ Motion rows_of(const DecodedStream& stream, double rate_hz) {
 }
 
 int decode_file(const Options& options) {
-    const StreamModelsAtHand models(options.model);
+    const StreamModelsAtHand models(options.talker, options.model);
     const DecodedStream stream = decode_stream(read_stream_file(options.stream, models.all()), models.all());
     std::fputs(stream.describe_damage().c_str(), stderr);
     if (stream.segments.empty())
@@ -52,7 +52,7 @@ void print_rows(const Motion& rows, bool& headed) {
 }
 
 int decode_live(const Options& options) {
-    const StreamModelsAtHand models(options.model);
+    const StreamModelsAtHand models(options.talker, options.model);
     LiveStreamDecoder decoder(models.all(), options.rate_hz);
     std::array<std::uint8_t, 4096> buffer{};
     bool headed = false;
@@ -79,6 +79,9 @@ Command add_via_decode(CLI::App& via) {
         ->required();
     app->add_option("-o,--output", options->output, "motion CSV; rows of --live go to stdout");
     app->add_option("--rate", options->rate_hz, "rows per second, 1 to 1000")->capture_default_str();
+    app->add_option(
+        "--talker", options->talker,
+        std::string("whose stream it is: ") + kStreamTalkerHelp + "; any built-in one when absent");
     app->add_option("--model", options->model, "a stream model's file, beside those of the talkers");
     app->add_flag("--live", options->live, "packets on stdin, rows on stdout as soon as they can be drawn");
     return [options] {

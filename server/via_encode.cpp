@@ -97,9 +97,9 @@ Command add_via_encode(CLI::App& via) {
     app->add_option("--max-error", options->stream.max_error_mm,
                     "bound in mm for each point at each sample, 0.01 to 100")
         ->capture_default_str();
-    app->add_option(
-        "--talker", options->talker,
-        "a built-in talker, whose basis and statistics are used; else the basis stands in the stream");
+    app->add_option("--talker", options->talker,
+                    std::string("whose basis and statistics are used, ") + kStreamTalkerHelp +
+                        "; when absent the basis stands in the stream");
     app->add_option("--model", options->model, "a stream model's file in place of --talker");
     app->add_option("--sync", options->stream.sync_s, "s, at most, between sync points, 0.2 to 60")
         ->capture_default_str();

@@ -61,15 +61,18 @@ void print_segments(const DecodedStream& stream) {
 
 Command add_via_info(CLI::App& via) {
     struct Options {
-        std::string stream, model;
+        std::string stream, talker, model;
     };
     auto options = std::make_shared<Options>();
     CLI::App* app =
         via.add_subcommand("info", "What a stream of via points holds: sizes, rates, segments, damage.");
     app->add_option("stream", options->stream, "the stream, .via")->required();
+    app->add_option(
+        "--talker", options->talker,
+        std::string("whose stream it is: ") + kStreamTalkerHelp + "; any built-in one when absent");
     app->add_option("--model", options->model, "a stream model's file, beside those of the talkers");
     return [options] {
-        const StreamModelsAtHand models(options->model);
+        const StreamModelsAtHand models(options->talker, options->model);
         const Bytes bytes = read_stream_file(options->stream, models.all());
         const DecodedStream stream = decode_stream(bytes, models.all());
         print_head(stream.head, stream.basis.size());

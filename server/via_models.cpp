@@ -8,17 +8,36 @@
 #include "viapoints/via_stream_head.hpp"
 
 namespace viaface {
+namespace {
+
+std::filesystem::path folder_of(const std::string& talker) {
+    if (talker.find('/') != std::string::npos) return talker;
+    TalkerShelf(talkers_folder()).description(talker);  // refuses a name that is not on the shelf
+    return talkers_folder() / talker;
+}
+
+std::vector<StreamModel> stream_models_of(const std::string& talker) {
+    if (talker.empty()) return all_stream_models(talkers_folder());
+    return {load_stream_model(folder_of(talker))};
+}
+
+}  // namespace
 
 std::unique_ptr<const StreamModel> stream_model_of(const std::string& talker, const std::string& file) {
     if (!talker.empty() && !file.empty()) throw InputError("model", file, "a file, or --talker, not both");
     if (!file.empty()) return std::make_unique<const StreamModel>(read_stream_model_file(file));
     if (talker.empty()) return nullptr;
-    TalkerShelf(talkers_folder()).description(talker);  // refuses a name that is not on the shelf
-    return std::make_unique<const StreamModel>(load_stream_model(talkers_folder() / talker));
+    return std::make_unique<const StreamModel>(load_stream_model(folder_of(talker)));
 }
 
-StreamModelsAtHand::StreamModelsAtHand(const std::string& file)
-    : models_(all_stream_models(talkers_folder())) {
+std::vector<StreamModel> drawn_stream_models(const std::string& talker) {
+    std::vector<StreamModel> models;
+    if (auto own = find_stream_model(folder_of(talker))) models.push_back(std::move(*own));
+    return models;
+}
+
+StreamModelsAtHand::StreamModelsAtHand(const std::string& talker, const std::string& file)
+    : models_(stream_models_of(talker)) {
     if (!file.empty()) models_.push_back(read_stream_model_file(file));
     for (const StreamModel& model : models_) all_.push_back(&model);
 }

@@ -9,13 +9,21 @@
 
 namespace viaface {
 
-// Of --talker and --model: a built-in talker's, or that of a file; none when both are empty.
+inline constexpr const char* kStreamTalkerHelp =
+    "a built-in talker's name, or a talker's folder (with a / in it)";
+
+// Of --talker and --model: a talker's own, or that of a file; none when both are empty. A talker is built in,
+// or a folder (with a / in it).
 std::unique_ptr<const StreamModel> stream_model_of(const std::string& talker, const std::string& file);
 
-// All that a stream may name: every talker's, and that of a file unless it is empty.
+// What a stream that this talker draws may name: its own model alone, or nothing when it has none.
+std::vector<StreamModel> drawn_stream_models(const std::string& talker);
+
+// All that a stream may name: the talker's alone, or, when it is empty, every built-in talker's; and that of
+// a file unless it is empty.
 class StreamModelsAtHand {
   public:
-    explicit StreamModelsAtHand(const std::string& file);
+    StreamModelsAtHand(const std::string& talker, const std::string& file);
     const std::vector<const StreamModel*>& all() const { return all_; }
 
   private:

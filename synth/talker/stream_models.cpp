@@ -30,7 +30,7 @@ std::optional<StreamModel> find_stream_model(const fs::path& talker_folder) {
 
 StreamModel load_stream_model(const fs::path& talker_folder) {
     if (auto model = find_stream_model(talker_folder)) return std::move(*model);
-    throw InputError("talker", talker_folder.filename().string(),
+    throw InputError("talker", talker_folder.string(),
                      std::string("a talker with a ") + kStreamModelFile +
                          ", which `viaface_train make` and `viaface via learn` write");
 }

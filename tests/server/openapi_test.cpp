@@ -217,6 +217,22 @@ TEST(OpenApi, NamesTheFieldsThatTheServiceKnowsAndNoOther) {
     EXPECT_NE(faults(schema("Speech"), json::object()), "");
 }
 
+TEST(OpenApi, DescribesTheQueryBesideAStream) {
+    int described = 0;
+    for (const json& parameter : api()["paths"]["/v1/videos"]["post"]["parameters"]) {
+        const json& schema = parameter["schema"];
+        const std::string name = parameter["name"];
+        const json standard = schema.at("default");
+        const std::string text = standard.is_string() ? standard.get<std::string>() : standard.dump();
+        EXPECT_NO_THROW(drawing_request_of({{name, text}}, "momo")) << name;
+        EXPECT_THROW(drawing_request_of({{name, text}, {name, text}}, "momo"), InputError) << name;
+        ++described;
+    }
+    EXPECT_EQ(described, 5);
+    EXPECT_EQ(drawing_request_of({}, "somebody").talker, "somebody");
+    EXPECT_THROW(drawing_request_of({{"text", "Hi."}}, "momo"), InputError);
+}
+
 // ---- what is answered ----
 
 // The answer's own type and status are described, and its body fits.

@@ -141,11 +141,44 @@ TEST(Service, AnswersViaPointsAsAStreamAndDrawsOne) {
     EXPECT_EQ(film->status, 200) << film->body;
     EXPECT_EQ(film->get_header_value("Content-Type"), "video/mp4");
     EXPECT_EQ(film->body.substr(4, 4), "ftyp");
+    EXPECT_EQ(FrameReader(bytes_of(film->body)).width(), 512);
+    const auto small =
+        client.Post("/v1/videos?size=64x48&fps=15&format=mkv&talker=momo", stream->body, kViaType);
+    ASSERT_EQ(small->status, 200) << small->body;
+    EXPECT_EQ(small->get_header_value("Content-Type"), "video/matroska");
+    FrameReader frames(bytes_of(small->body));
+    EXPECT_EQ(frames.width(), 64);
+    int count = 0;
+    while (frames.next()) ++count;
+    EXPECT_NEAR(count, 15 * (decoded.end_s() - decoded.begin_s()), 1);
+    for (const auto& [query, field] :
+         {std::pair("talker=nobody", "talker"), std::pair("size=64", "size"), std::pair("size=0x0", "size"),
+          std::pair("fps=fast", "fps"), std::pair("fps=1e9", "fps"), std::pair("fps=25&fps=30", "fps"),
+          std::pair("format=gif", "format"), std::pair("seed=-1", "seed"), std::pair("yaw=3", "yaw")}) {
+        const auto refused = client.Post(std::string("/v1/videos?") + query, stream->body, kViaType);
+        EXPECT_EQ(refused->status, 422) << query << refused->body;
+        EXPECT_EQ(json::parse(refused->body).value("field", ""), field) << query;
+    }
     for (const std::string& rubbish : {std::string(), std::string("hello"), stream->body.substr(0, 20)}) {
         const auto refused = client.Post("/v1/videos", rubbish, kViaType);
         EXPECT_EQ(refused->status, 422) << refused->body;
         EXPECT_EQ(json::parse(refused->body).value("field", ""), "stream");
     }
+}
+
+TEST(Service, AnswersViaPointsInTheTypeThatAClientPrefers) {
+    const Served served;
+    const auto type_for = [&](const httplib::Headers& headers) {
+        const auto answer =
+            served.client().Post("/v1/viapoints", headers, R"({"phones": "aa1:100"})", "application/json");
+        return std::to_string(answer->status) + " " + answer->get_header_value("Content-Type");
+    };
+    const std::string via = std::string("200 ") + kViaType, plain = "200 application/json";
+    EXPECT_EQ(type_for({{"Accept", std::string(kViaType) + ", */*;q=0.1"}}), via);
+    EXPECT_EQ(type_for({{"Accept", "application/json;q=0.5"}, {"Accept", kViaType}}), via);
+    EXPECT_EQ(type_for({{"Accept", "text/html, */*;q=0.8"}}), plain);
+    EXPECT_EQ(type_for({{"Accept", std::string("application/json, ") + kViaType + ";q=0.9"}}), plain);
+    EXPECT_EQ(type_for({{"Accept", "text/html"}}), "406 application/problem+json");
 }
 
 TEST(Service, RefusesWhatIsNotJsonTooLongOrElsewhere) {
