@@ -20,6 +20,7 @@ constexpr int kTicksPerSecond = 30;
 constexpr double kBasisShare = 0.35;  // of a bound, that the modes of its table may leave
 constexpr Index kMostRows = 6000;     // of all motions, that a basis is made from
 constexpr Index kMostModes = 24;
+constexpr std::size_t kMostSegments = 30;  // that a table is learned from: the first of each motion
 
 std::vector<int> common_points(const std::vector<Motion>& motions) {
     std::vector<int> common;
@@ -64,7 +65,9 @@ std::vector<QuantisedSegment> encoded(const std::vector<Motion>& motions, Stream
     for (const Motion& motion : motions) {
         tools.head.start_s = motion.time_s.front();
         SegmentEncoder encoder(tools, rounds);
-        for (const CutSegment& cut : cut_motion(motion, tools.head)) {
+        std::vector<CutSegment> cuts = cut_motion(motion, tools.head);
+        cuts.resize(std::min(cuts.size(), kMostSegments / motions.size() + 1));
+        for (const CutSegment& cut : cuts) {
             const SegmentVia segment = encoder.encode(motion, cut);
             if (segment.finer == 0) segments.push_back(segment.via);
         }

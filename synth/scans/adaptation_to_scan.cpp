@@ -223,9 +223,35 @@ Eigen::VectorXd trust_in_scan(const GenericHead& generic) {
     return trust;
 }
 
-// Moves the nodes of triangles that are turned over halfway to the mean of their neighbours until none is.
+std::vector<bool> with_neighbours(const GenericHead& generic, const std::vector<bool>& nodes) {
+    std::vector<bool> more = nodes;
+    for (const Triangle& t : generic.surface) {
+        if (std::ranges::none_of(t, [&](int node) { return nodes[static_cast<std::size_t>(node)]; }))
+            continue;
+        for (const int node : t) more[static_cast<std::size_t>(node)] = true;
+    }
+    return more;
+}
+
+// Where each node would be if it stood to its neighbours as in `like`: amid them where that is all zero.
+Nodes amid_neighbours(const GenericHead& generic, const Nodes& nodes, const Nodes& like) {
+    const Nodes ways = nodes - like;
+    Nodes sum = Nodes::Zero(nodes.rows(), 3);
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(nodes.rows());
+    for (const Triangle& t : generic.surface) {
+        for (const int node : t) {
+            sum.row(node) += ways.row(t[0]) + ways.row(t[1]) + ways.row(t[2]) - ways.row(node);
+            count[node] += 2;
+        }
+    }
+    return like + (count.cwiseMax(1).cwiseInverse().asDiagonal() * sum);
+}
+
+// Moves the nodes of triangles that are turned over, later those about them too, halfway to amid their
+// neighbours until none is, and where that does not help to where the generic head has them.
 void relax_turned(const GenericHead& generic, Nodes& nodes) {
-    constexpr int kRounds = 200;
+    constexpr int kRounds = 400, kRoundsToGrow = 50;
+    const Nodes amid = Nodes::Zero(nodes.rows(), 3);
     for (int round = 0; round < kRounds; ++round) {
         const auto turned = turned_triangles(generic, nodes);
         if (turned.empty()) return;
@@ -233,24 +259,12 @@ void relax_turned(const GenericHead& generic, Nodes& nodes) {
         for (const Triangle& t : turned) {
             for (const int node : t) moves[static_cast<std::size_t>(node)] = true;
         }
-        if (round >= kRounds / 4) {  // and those about them
-            const std::vector<bool> alone = moves;
-            for (const Triangle& t : generic.surface) {
-                if (std::ranges::none_of(t, [&](int node) { return alone[static_cast<std::size_t>(node)]; }))
-                    continue;
-                for (const int node : t) moves[static_cast<std::size_t>(node)] = true;
-            }
-        }
-        Nodes sum = Nodes::Zero(nodes.rows(), 3);
-        Eigen::VectorXd count = Eigen::VectorXd::Zero(nodes.rows());
-        for (const Triangle& t : generic.surface) {
-            for (const int node : t) {
-                sum.row(node) += nodes.row(t[0]) + nodes.row(t[1]) + nodes.row(t[2]) - nodes.row(node);
-                count[node] += 2;
-            }
-        }
+        const int late = round % (kRounds / 2);
+        for (int ring = 0; ring < late / kRoundsToGrow; ++ring) moves = with_neighbours(generic, moves);
+        const Nodes there =
+            amid_neighbours(generic, nodes, round < kRounds / 2 ? amid : Nodes(generic.face.rest));
         for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
-            if (moves[static_cast<std::size_t>(i)]) nodes.row(i) = (nodes.row(i) + sum.row(i) / count[i]) / 2;
+            if (moves[static_cast<std::size_t>(i)]) nodes.row(i) = (nodes.row(i) + there.row(i)) / 2;
         }
     }
 }
