@@ -259,10 +259,10 @@ void relax_turned(const GenericHead& generic, Nodes& nodes) {
         for (const Triangle& t : turned) {
             for (const int node : t) moves[static_cast<std::size_t>(node)] = true;
         }
-        const int late = round % (kRounds / 2);
-        for (int ring = 0; ring < late / kRoundsToGrow; ++ring) moves = with_neighbours(generic, moves);
-        const Nodes there =
-            amid_neighbours(generic, nodes, round < kRounds / 2 ? amid : Nodes(generic.face.rest));
+        const bool early = round < kRounds / 2;
+        const int grown = round % (kRounds / 2) / kRoundsToGrow, rings = early ? std::min(grown, 1) : grown;
+        for (int ring = 0; ring < rings; ++ring) moves = with_neighbours(generic, moves);
+        const Nodes there = amid_neighbours(generic, nodes, early ? amid : Nodes(generic.face.rest));
         for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
             if (moves[static_cast<std::size_t>(i)]) nodes.row(i) = (nodes.row(i) + there.row(i)) / 2;
         }
