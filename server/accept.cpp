@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <charconv>
 
+#include "viapoints/cells.hpp"
+
 namespace viaface {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t";
-    const std::size_t first = text.find_first_not_of(kBlank);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 // What is before the separator; `text` keeps what is behind it.
 std::string_view next_part(std::string_view& text, char separator) {
@@ -21,9 +16,7 @@ std::string_view next_part(std::string_view& text, char separator) {
     return trimmed(part);
 }
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool same(std::string_view a, std::string_view b) { return std::ranges::equal(a, b, {}, lower, lower); }
+bool same(std::string_view a, std::string_view b) { return in_lower_case(a) == in_lower_case(b); }
 
 // A range's quality, 1 when it tells none; none for what is no number from 0 to 1.
 std::optional<double> quality_of(std::string_view parameters) {
