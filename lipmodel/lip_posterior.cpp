@@ -102,18 +102,26 @@ const LogMap& LipPosterior::map_of(ColourClass colour) const {
                                           : maps_.opening;
 }
 
-Eigen::VectorXd LipPosterior::areas(const Eigen::VectorXd& theta) const {
-    const Projected seen = projected(theta);
+Eigen::VectorXd LipPosterior::areas(const Eigen::VectorXd& theta) const { return areas_of(projected(theta)); }
+
+Eigen::VectorXd LipPosterior::areas_of(const Projected& seen) const {
     Eigen::VectorXd areas(faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f)
         areas[static_cast<Eigen::Index>(f)] = visible_area(seen.pixels, faces_[f].corners);
     return areas;
 }
 
-double LipPosterior::value(const Eigen::VectorXd& theta) const { return value_at_areas(theta, areas(theta)); }
+double LipPosterior::value(const Eigen::VectorXd& theta) const {
+    const Projected seen = projected(theta);
+    return value_of(theta, seen, areas_of(seen));
+}
 
 double LipPosterior::value_at_areas(const Eigen::VectorXd& theta, const Eigen::VectorXd& areas) const {
-    const Projected seen = projected(theta);
+    return value_of(theta, projected(theta), areas);
+}
+
+double LipPosterior::value_of(const Eigen::VectorXd& theta, const Projected& seen,
+                              const Eigen::VectorXd& areas) const {
     double sum = -0.5 * theta.cwiseAbs2().dot(certainty_);
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const double area = areas[static_cast<Eigen::Index>(f)];

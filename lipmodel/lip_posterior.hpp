@@ -55,6 +55,8 @@ class LipPosterior {
         Eigen::Index turn = -1, shift = -1, scale = -1;  // first place in theta; -1 when held
     };
     Projected projected(const Eigen::VectorXd& theta) const;
+    Eigen::VectorXd areas_of(const Projected& seen) const;
+    double value_of(const Eigen::VectorXd& theta, const Projected& seen, const Eigen::VectorXd& areas) const;
     const LogMap& map_of(ColourClass colour) const;
     Eigen::Vector3d at(const Eigen::VectorXd& theta, Eigen::Index first) const;
     Eigen::MatrixXd pose_slopes(const Eigen::VectorXd& theta, const LipPose& pose,

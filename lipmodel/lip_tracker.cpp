@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "lipmodel/closed_lips.hpp"
 #include "lipmodel/lip_regions.hpp"
 #include "lipmodel/lip_thickness.hpp"
 
@@ -74,6 +76,13 @@ T median(std::vector<T> values) {
     return values[values.size() / 2];
 }
 
+struct Climbed {
+    Eigen::VectorXd p = {};
+    LipPose pose = {};
+    double log_posterior = -std::numeric_limits<double>::infinity(), confidence = 0;
+    int iterations = 0;
+};
+
 // One of the first pictures while scales and classes are fitted.
 struct Fitting {
     const FaceSeen& seen;
@@ -119,6 +128,7 @@ class LipTracker::Tracking {
     Tracking(const LipModel& model, std::span<const FaceSeen> seen, const TrackerOptions& options)
         : model_(with_thickness(model, kThicknessSd)),
           options_(options),
+          closed_(closed_lips(model_)),
           still_(Eigen::VectorXd::Zero(model_.modes.cols())) {
         if (seen.empty()) throw std::invalid_argument("LipTracker: no face seen");
         std::vector<Fitting> fittings;
@@ -205,11 +215,9 @@ class LipTracker::Tracking {
         for (Fitting& f : fittings) {
             const ClassMaps maps = maps_of(f.seen.picture, centre_of(f.pose));
             f.pose.scale = scale_;
-            const LipPosterior posterior(model_, placing_.camera, f.pose, maps,
-                                         kCertainty * maps.independence, kFirstFreedom);
-            const LipFit fit = climb(posterior, posterior.start(f.p), options_.ascent);
-            f.p = posterior.modes_of(fit.theta);
-            f.pose = posterior.pose_of(fit.theta);
+            const Climbed found = most_probable(maps, f.pose, kFirstFreedom, {f.p});
+            f.p = found.p;
+            f.pose = found.pose;
             x.push_back(f.pose.scale.x());
             y.push_back(f.pose.scale.y());
         }
@@ -240,19 +248,35 @@ class LipTracker::Tracking {
                           hamming_size(mouth_px_));
     }
 
+    // From each start; then, from the best, with the lips shut.
+    Climbed most_probable(const ClassMaps& maps, const LipPose& expected, const PoseFreedom& freedom,
+                          const std::vector<Eigen::VectorXd>& starts) const {
+        const double gamma = kCertainty * maps.independence;
+        const LipPosterior open(model_, placing_.camera, expected, maps, gamma, freedom),
+            shut(closed_.model, placing_.camera, expected, maps, gamma, freedom);
+        Climbed best;
+        for (const Eigen::VectorXd& start : starts) {
+            const LipFit fit = climb(open, open.start(start), options_.ascent);
+            if (fit.log_posterior > best.log_posterior)
+                best = {open.modes_of(fit.theta), open.pose_of(fit.theta), fit.log_posterior,
+                        open.mean_fit(fit.theta), fit.iterations};
+        }
+        const LipFit fit = climb(shut, shut.start(closed_.nearest(best.p)), options_.ascent);
+        if (fit.log_posterior - closed_.cost > best.log_posterior)
+            best = {closed_.modes_of(shut.modes_of(fit.theta)), shut.pose_of(fit.theta),
+                    fit.log_posterior - closed_.cost, shut.mean_fit(fit.theta), fit.iterations};
+        return best;
+    }
+
     TrackedLips climbed(const Picture& picture, const LipPose& expected, const PoseFreedom& freedom) const {
         const ClassMaps maps = maps_of(picture, centre_of(expected));
-        const LipPosterior posterior(model_, placing_.camera, expected, maps, kCertainty * maps.independence,
-                                     freedom);
-        LipFit fit = climb(posterior, posterior.start(last_.size() ? last_ : still_), options_.ascent);
-        const LipFit other = climb(posterior, posterior.start(still_), options_.ascent);
-        if (other.log_posterior > fit.log_posterior) fit = other;
+        const Climbed best = most_probable(maps, expected, freedom, {last_.size() ? last_ : still_, still_});
         TrackedLips lips{.found = true,
-                         .p = posterior.modes_of(fit.theta),
-                         .pose = posterior.pose_of(fit.theta),
-                         .log_posterior = fit.log_posterior,
-                         .confidence = posterior.mean_fit(fit.theta),
-                         .iterations = fit.iterations};
+                         .p = best.p,
+                         .pose = best.pose,
+                         .log_posterior = best.log_posterior,
+                         .confidence = best.confidence,
+                         .iterations = best.iterations};
         const Nodes shape = as_lip_nodes(lip_shape(model_, lips.p));
         lips.shape = shape * scale_.asDiagonal();
         lips.pixels = project(placing_.camera, lips.pose, shape).pixels;
@@ -285,6 +309,7 @@ class LipTracker::Tracking {
     Placing placing_{};
     Vector3d scale_ = Vector3d::Ones();
     FaceFinder finder_;
+    ClosedLips closed_;
     Eigen::VectorXd still_, last_;
     std::optional<ColourClasses> classes_;
     double mouth_px_ = 0;

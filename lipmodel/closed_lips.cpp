@@ -1,0 +1,54 @@
+#include "lipmodel/closed_lips.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace viaface {
+namespace {
+
+// The inverse of a covariance along the directions in which it is one.
+Eigen::Matrix3d inverse_where_it_moves(const Eigen::Matrix3d& covariance) {
+    constexpr double kShare = 1e-6, kStill = 1e-6;  // of the largest; mm^2
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    const double least = std::max(kStill, kShare * solver.eigenvalues()[2]);
+    const Eigen::Vector3d inverse =
+        solver.eigenvalues().unaryExpr([&](double value) { return value > least ? 1 / value : 0.0; });
+    return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
+Eigen::Vector3d marked_openings(const Eigen::VectorXd& shape) {
+    const auto height = [&](int column) { return shape[3 * LipMesh::node(LipMesh::kInnerRing, column) + 1]; };
+    Eigen::Vector3d openings;
+    for (int i = 0; i < 3; ++i) {
+        const int column = (i - 1) * LipMesh::kLeftCorner / 2;
+        openings[i] = height(column) - height(LipMesh::kBottom - column);
+    }
+    return openings;
+}
+
+ClosedLips closed_lips(const LipModel& model) {
+    constexpr double kFree = 1e-9;  // of the largest variance
+    const Eigen::Index modes = model.modes.cols();
+    Eigen::MatrixXd slope(3, modes);
+    for (Eigen::Index i = 0; i < modes; ++i) slope.col(i) = marked_openings(model.modes.col(i));
+    const Eigen::Vector3d still = marked_openings(as_column(model.rest) + model.mean);
+    const Eigen::MatrixXd spread = model.variance.asDiagonal() * slope.transpose();
+    const Eigen::MatrixXd gain = spread * inverse_where_it_moves(slope * spread);
+
+    ClosedLips closed{.model = model, .at = -gain * still};
+    const Eigen::MatrixXd covariance =
+        Eigen::MatrixXd(model.variance.asDiagonal()) - gain * spread.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+    const Eigen::VectorXd values = solver.eigenvalues().reverse();
+    const Eigen::Index kept = (values.array() > kFree * model.variance.maxCoeff()).count();
+    closed.turn = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+    closed.cost = 0.5 * closed.at.cwiseAbs2().cwiseQuotient(model.variance).sum();
+    closed.model.mean += model.modes * closed.at;
+    closed.model.modes = model.modes * closed.turn;
+    closed.model.variance = values.head(kept);
+    return closed;
+}
+
+}  // namespace viaface
