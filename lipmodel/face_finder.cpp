@@ -1,6 +1,7 @@
 #include "lipmodel/face_finder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
@@ -46,6 +47,24 @@ std::optional<Eigen::Vector2d> nearest(const std::vector<cv::Rect>& found, const
     return best;
 }
 
+cv::Rect largest(const std::vector<cv::Rect>& faces) {
+    return *std::ranges::max_element(faces, {},
+                                     [](const cv::Rect& r) { return std::tuple(r.area(), -r.x, -r.y); });
+}
+
+// By the place of the eyes, in distances of the eyes, and by their distance. Boxes are in a picture so many
+// times smaller.
+cv::Rect most_like(const std::vector<cv::Rect>& faces, const FaceInPicture& before, double shrink) {
+    const auto unlike = [&](const cv::Rect& box) {
+        const double width = box.width * shrink;
+        const Eigen::Vector2d middle =
+            shrink * Eigen::Vector2d(box.x, box.y) + width * Eigen::Vector2d(0.5, kEyeHeight);
+        return (middle - before.middle()).norm() / before.eye_distance() +
+               std::abs(std::log((1 - 2 * kEyePlace) * width / before.eye_distance()));
+    };
+    return *std::ranges::min_element(faces, {}, unlike);
+}
+
 }  // namespace
 
 std::filesystem::path cascades_folder() {
@@ -65,7 +84,8 @@ FaceFinder::FaceFinder(const std::filesystem::path& cascades)
 
 FaceFinder::~FaceFinder() = default;
 
-std::optional<FaceInPicture> FaceFinder::find(const Picture& picture) {
+std::optional<FaceInPicture> FaceFinder::find(const Picture& picture,
+                                              const std::optional<FaceInPicture>& before) {
     const cv::Mat whole = grey(picture);
     const double shrink = std::max(1.0, std::max(picture.width, picture.height) / double{kLongestSide});
     cv::Mat small;
@@ -73,8 +93,7 @@ std::optional<FaceInPicture> FaceFinder::find(const Picture& picture) {
     std::vector<cv::Rect> faces;
     cascades_->face.detectMultiScale(small, faces, 1.1, 3, 0, {kSmallestFace, kSmallestFace});
     if (faces.empty()) return std::nullopt;
-    const cv::Rect box = *std::ranges::max_element(
-        faces, {}, [](const cv::Rect& r) { return std::tuple(r.area(), -r.x, -r.y); });
+    const cv::Rect box = before ? most_like(faces, *before, shrink) : largest(faces);
     std::vector<cv::Rect> eyes;
     const cv::Rect upper(box.x, box.y + box.height / 8, box.width, box.height / 2);
     const int least = std::max(6, box.width / 8), most = box.width / 2;

@@ -14,7 +14,7 @@ namespace viaface {
 struct FaceInPicture {
     Eigen::Vector2d left_eye, right_eye;  // px
     bool eyes_seen = false;               // else where eyes are in most faces of this size
-    int faces = 1;                        // met; this one is the largest
+    int faces = 1;                        // met, this one among them
 
     double eye_distance() const { return (right_eye - left_eye).norm(); }  // px
     Eigen::Vector2d middle() const { return 0.5 * (left_eye + right_eye); }
@@ -31,7 +31,9 @@ class FaceFinder {
     explicit FaceFinder(const std::filesystem::path& cascades = cascades_folder());  // std::runtime_error
     ~FaceFinder();
 
-    std::optional<FaceInPicture> find(const Picture& picture);
+    // Among several the largest; with `before`, the one that is most like it in place and size.
+    std::optional<FaceInPicture> find(const Picture& picture,
+                                      const std::optional<FaceInPicture>& before = std::nullopt);
 
   private:
     struct Cascades;

@@ -62,7 +62,7 @@ double Similarity::scale() const { return std::hypot(a, b); }
 double Similarity::roll() const { return std::atan2(b, a); }
 
 HeadFollower::HeadFollower(const Picture& first, const PictureBox& patch) {
-    if (patch.left < 0 || patch.top < 0 || patch.width < 8 || patch.height < 8 ||
+    if (patch.left < 0 || patch.top < 0 || patch.width < kLeastSide || patch.height < kLeastSide ||
         patch.left + patch.width > first.width || patch.top + patch.height > first.height)
         throw std::invalid_argument("HeadFollower: a patch that is not in the picture");
     const cv::Mat grey = smooth_grey(first, {patch.left, patch.top, patch.width, patch.height});

@@ -28,7 +28,9 @@ struct Followed {
 // Immutable.
 class HeadFollower {
   public:
-    // patch: what to follow; std::invalid_argument when it does not lie in the picture.
+    static constexpr int kLeastSide = 8;  // px, of a patch
+
+    // patch: what to follow; std::invalid_argument when it is smaller or does not lie in the picture.
     HeadFollower(const Picture& first, const PictureBox& patch);
 
     Followed follow(const Picture& now, const Similarity& start) const;

@@ -136,6 +136,7 @@ class LipTracker::Tracking {
             fittings.push_back({s, s.mouth ? *s.mouth : find_mouth(s.picture, s.face)});
         place(fittings);
         learn(fittings);
+        face_ = seen.back().face;
     }
 
     TrackedLips next(const Picture& picture, const std::optional<FaceInPicture>& face) {
@@ -143,7 +144,7 @@ class LipTracker::Tracking {
             TrackedLips lips = followed(picture);
             if (lips.found) return lips;
         }
-        if (!find_again(picture, face ? face : finder_.find(picture))) return {};
+        if (!find_again(picture, face ? face : finder_.find(picture, face_))) return {};
         return followed(picture);
     }
 
@@ -285,7 +286,10 @@ class LipTracker::Tracking {
 
     bool find_again(const Picture& picture, const std::optional<FaceInPicture>& face) {
         if (!face) return false;
-        follower_.emplace(picture, still_part(picture, *face));
+        const PictureBox still = still_part(picture, *face);
+        if (std::min(still.width, still.height) < HeadFollower::kLeastSide) return false;
+        face_ = face;
+        follower_.emplace(picture, still);
         head_ = follower_->still();
         shrink_then_ = face->eye_distance() / (placing_.px_per_mm * options_.eye_distance_mm);
         roll_then_ = roll_of(*face);
@@ -309,6 +313,7 @@ class LipTracker::Tracking {
     Placing placing_{};
     Vector3d scale_ = Vector3d::Ones();
     FaceFinder finder_;
+    std::optional<FaceInPicture> face_;  // as it was found last
     ClosedLips closed_;
     Eigen::VectorXd still_, last_;
     std::optional<ColourClasses> classes_;

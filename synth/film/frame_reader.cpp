@@ -1,11 +1,14 @@
 #include "synth/film/media_reader.hpp"
 
 extern "C" {
+#include <libavutil/display.h>
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
 
 #include <array>
+#include <cmath>
+#include <cstring>
 
 #include "synth/film/stream_decoder.hpp"
 
@@ -68,23 +71,51 @@ Handle<SwsContext> to_rgba(const AVFrame& frame) {
     return scaler;
 }
 
+// Quarter turns clockwise that bring the pictures upright, 0 to 3.
+int quarter_turns(const StreamDecoder& decoder) {
+    std::size_t size = 0;
+    const std::uint8_t* tag = av_stream_get_side_data(&decoder.stream(), AV_PKT_DATA_DISPLAYMATRIX, &size);
+    if (!tag || size < 9 * sizeof(std::int32_t)) return 0;
+    std::array<std::int32_t, 9> matrix{};
+    std::memcpy(matrix.data(), tag, sizeof matrix);
+    const double quarters = -av_display_rotation_get(matrix.data()) / 90;  // NaN for a matrix that is none
+    if (!(std::abs(quarters - std::round(quarters)) < 0.02)) decoder.refuse("a rotation by quarter turns");
+    return (static_cast<int>(std::lround(quarters)) + 4) % 4;
+}
+
+Frame turned_clockwise(const Frame& frame) {
+    Frame turned{frame.height, frame.width, std::vector<std::uint8_t>(frame.rgba.size())};
+    for (int y = 0; y < turned.height; ++y) {
+        for (int x = 0; x < turned.width; ++x) {
+            const auto from = static_cast<std::size_t>(frame.height - 1 - x) * frame.width + y;
+            const auto to = static_cast<std::size_t>(y) * turned.width + x;
+            std::memcpy(&turned.rgba[4 * to], &frame.rgba[4 * from], 4);
+        }
+    }
+    return turned;
+}
+
 }  // namespace
 
 class FrameReader::Decoding {
   public:
     explicit Decoding(const MediaSource& source) : decoder(source, AVMEDIA_TYPE_VIDEO) {
         if (!decoder.found()) decoder.refuse("a file with pictures");
+        turns = quarter_turns(decoder);
     }
 
     std::optional<TimedFrame> next() {
         const AVFrame* decoded = decoder.next();
         if (!decoded) return std::nullopt;
         if (decoded->best_effort_timestamp == AV_NOPTS_VALUE) decoder.refuse("pictures with times");
-        return TimedFrame{converted(*decoded),
+        Frame frame = converted(*decoded);
+        for (int i = 0; i < turns; ++i) frame = turned_clockwise(frame);
+        return TimedFrame{std::move(frame),
                           libav::seconds(decoded->best_effort_timestamp, decoder.stream().time_base)};
     }
 
     StreamDecoder decoder;
+    int turns = 0;  // clockwise, by quarters
 
   private:
     Frame converted(const AVFrame& decoded) {
@@ -109,8 +140,14 @@ class FrameReader::Decoding {
 FrameReader::FrameReader(const MediaSource& source) : decoding_(std::make_unique<Decoding>(source)) {}
 FrameReader::~FrameReader() = default;
 
-int FrameReader::width() const { return decoding_->decoder.codec().width; }
-int FrameReader::height() const { return decoding_->decoder.codec().height; }
+int FrameReader::width() const {
+    const auto& codec = decoding_->decoder.codec();
+    return decoding_->turns % 2 == 1 ? codec.height : codec.width;
+}
+int FrameReader::height() const {
+    const auto& codec = decoding_->decoder.codec();
+    return decoding_->turns % 2 == 1 ? codec.width : codec.height;
+}
 
 double FrameReader::frames_per_s() const {
     const AVRational rate = decoding_->decoder.stream().avg_frame_rate;

@@ -1,7 +1,7 @@
 // Reads a film, a video or a sound file that anybody may have made: pictures one at a time, sound as one mono
 // track, both on the file's own time axis, from which the container's edit list has been applied and encoder
-// priming cut. Rotation tags are not applied. Decoders run with one thread, so that one file always reads the
-// same.
+// priming cut. Pictures are upright as their rotation tag says, in quarter turns. Decoders run with one
+// thread, so that one file always reads the same.
 //
 // InputError("media", ...) when the bytes are no such file, are damaged, or exceed the limits below.
 #pragma once

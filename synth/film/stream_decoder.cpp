@@ -50,6 +50,7 @@ const AVFrame* StreamDecoder::next() {
         if (code == AVERROR_EOF) return nullptr;
         if (code != AVERROR(EAGAIN)) {
             accept(code);
+            ++decoded_;
             return frame_.get();
         }
         feed();
@@ -61,7 +62,11 @@ int StreamDecoder::accept(int code) const {
     return code;
 }
 
-void StreamDecoder::refuse(const char* allowed) const { throw InputError("media", name_, allowed); }
+void StreamDecoder::refuse(const char* allowed) const {
+    const std::string where =
+        decoded_ > 0 ? ", damaged or cut after " + std::to_string(decoded_) + " frames" : "";
+    throw InputError("media", name_ + where, allowed);
+}
 
 void StreamDecoder::open(const MediaSource& source) {
     AVFormatContext* format = avformat_alloc_context();

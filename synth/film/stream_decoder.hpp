@@ -46,6 +46,7 @@ class StreamDecoder {
     Handle<AVPacket> packet_{av_packet_alloc()};
     Handle<AVFrame> frame_{av_frame_alloc()};
     int index_ = -1;
+    std::int64_t decoded_ = 0;  // frames
 };
 
 // A stamp of a stream in seconds, rounded once.

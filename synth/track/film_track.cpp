@@ -50,10 +50,29 @@ struct FirstLook {
     }
 };
 
+std::string line(const char* format, auto... values) {
+    char text[300];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+// By hand, in the first frame.
+const Hint& within(const Hint& hint, const Frame& frame) {
+    const auto inside = [&](const Eigen::Vector2d& place) {
+        return place.minCoeff() >= 0 && place.x() < frame.width && place.y() < frame.height;
+    };
+    if (inside(hint.face.left_eye) && inside(hint.face.right_eye) &&
+        (!hint.mouth || inside(hint.mouth->centre)))
+        return hint;
+    throw InputError("--hint", "a place outside the picture",
+                     line("places in a picture of %d x %d px", frame.width, frame.height));
+}
+
 FirstLook first_look(const TrackRequest& request) {
     FrameReader reader(request.video);
     FaceFinder finder;
     FirstLook look;
+    std::optional<FaceInPicture> before;
     int first = kSearched;
     for (int n = 0; n < first + kLearnt && n < kSearched; ++n) {
         const auto timed = reader.next();
@@ -63,8 +82,9 @@ FirstLook first_look(const TrackRequest& request) {
         const Frame& frame = timed->frame;
         const SmallPicture whole = small_picture(frame, 1);
         const bool by_hand = n == 0 && request.hint;
-        const auto face = by_hand ? request.hint->face : finder.find(whole.picture());
+        const auto face = by_hand ? within(*request.hint, frame).face : finder.find(whole.picture(), before);
         if (!face) continue;
+        before = face;
         look.add(frame, *face, by_hand ? request.hint->mouth : std::nullopt);
         first = std::min(first, n);
         if (look.seen.size() == kFaces) break;
@@ -73,12 +93,6 @@ FirstLook first_look(const TrackRequest& request) {
         throw InputError("video", "no face in its first " + std::to_string(look.searched) + " frames",
                          "an upright face seen from the front, or --hint");
     return look;
-}
-
-std::string line(const char* format, auto... values) {
-    char text[300];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
 }
 
 // Rows of the motion as they come.
@@ -197,7 +211,8 @@ FilmTrack track_film(const LipModel& model, const TrackRequest& request, const T
     track.report = {line("%zu frames, mouth %.0f px wide, mean confidence %.2f", found.size(),
                          tracker.mouth_px() * look.factor, confidence / static_cast<double>(found.size())),
                     line("scales of the model: %.3f, %.3f, %.3f", scale.x(), scale.y(), scale.z())};
-    if (look.faces > 1) track.report.push_back(line("%d faces: the largest is tracked", look.faces));
+    if (look.faces > 1)
+        track.report.push_back(line("%d faces: the one that was largest at first is tracked", look.faces));
     if (!look.eyes) track.report.push_back("eyes not seen: the scale rests on the size of the face alone");
     if (track.lost > 0) track.report.push_back("lost in frames " + lost_frames(found));
     track.comments = {

@@ -60,6 +60,74 @@ TEST(MediaReader, ReadsAFileAsItReadsItsBytes) {
     EXPECT_FALSE(from_file.next());
 }
 
+// Writes a matrix [a b; c d] into the header of the first track that has a width (ISO 14496-12, 8.3.2).
+Bytes tagged(Bytes film, const std::array<int, 4>& matrix) {
+    constexpr std::size_t kMatrix = 44, kWidth = 80;  // from the name "tkhd", version 0
+    const std::string_view name = "tkhd";
+    auto at = std::search(film.begin(), film.end(), name.begin(), name.end());
+    while (film.end() - at > 88 && std::all_of(at + kWidth, at + kWidth + 4, [](auto b) { return b == 0; }))
+        at = std::search(at + 4, film.end(), name.begin(), name.end());
+    if (film.end() - at <= 88) throw std::runtime_error("no track with a width");
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t place = kMatrix + 4 * (i / 2 * 3 + i % 2);
+        const auto value = static_cast<std::uint32_t>(matrix[i] * 65536);
+        for (std::size_t byte = 0; byte < 4; ++byte)
+            at[static_cast<std::ptrdiff_t>(place + byte)] =
+                static_cast<std::uint8_t>(value >> (24 - 8 * byte));
+    }
+    return film;
+}
+
+TEST(MediaReader, TurnsPicturesAsTheirTagSays) {
+    const Bytes film =
+        streamed({.spec = {64, 48, {24, 1}, FilmFormat::kMp4, 16000}, .frames = 3, .samples = 1500});
+    const Frame plain = FrameReader{std::span(film)}.next()->frame;
+    const auto turned = [&](const std::array<int, 4>& matrix) {
+        const Bytes bytes = tagged(film, matrix);
+        FrameReader reader{std::span(bytes)};
+        Frame frame = reader.next()->frame;
+        EXPECT_EQ(reader.width(), frame.width);
+        EXPECT_EQ(reader.height(), frame.height);
+        return frame;
+    };
+    const auto pixel = [](const Frame& frame, int x, int y) {
+        const auto at = frame.rgba.begin() + 4 * (std::ptrdiff_t{y} * frame.width + x);
+        return std::vector<std::uint8_t>(at, at + 4);
+    };
+    const Frame right = turned({0, 1, -1, 0}), half = turned({-1, 0, 0, -1}), left = turned({0, -1, 1, 0});
+    ASSERT_EQ(right.width, 48);
+    ASSERT_EQ(half.width, 64);
+    ASSERT_EQ(left.height, 64);
+    for (const auto& [x, y] : {std::pair(0, 0), {5, 40}, {63, 20}}) {
+        EXPECT_EQ(pixel(right, 47 - y, x), pixel(plain, x, y));
+        EXPECT_EQ(pixel(half, 63 - x, 47 - y), pixel(plain, x, y));
+        EXPECT_EQ(pixel(left, y, 63 - x), pixel(plain, x, y));
+    }
+    EXPECT_EQ(turned({1, 0, 0, 1}).rgba, plain.rgba);
+    const Bytes askew = tagged(film, {1, 1, -1, 1});
+    EXPECT_THROW(FrameReader{std::span(askew)}, InputError);
+}
+
+TEST(MediaReader, SaysHowFarADamagedFilmGoes) {
+    const Bytes film = streamed({.spec = {64, 48, {24, 1}, FilmFormat::kMp4, 16000}, .frames = 40});
+    int told = 0;
+    for (std::size_t at = film.size() / 2; at + 64 < film.size(); at += film.size() / 20) {
+        Bytes damaged = film;
+        for (std::size_t i = at; i < at + 64; ++i) damaged[i] ^= 0xff;
+        int frames = 0;
+        try {
+            FrameReader reader{std::span(damaged)};
+            while (reader.next()) ++frames;
+        } catch (const InputError& error) {
+            if (frames == 0) continue;
+            const std::string where = "damaged or cut after " + std::to_string(frames) + " frames";
+            EXPECT_NE(std::string(error.what()).find(where), std::string::npos) << error.what();
+            ++told;
+        }
+    }
+    EXPECT_GT(told, 0);
+}
+
 TEST(MediaReader, SaysWhenThereIsNoPicture) {
     const ScratchFolder folder;
     const Clip clip{.spec = {16, 16, {30, 1}, FilmFormat::kPng, 16000}, .frames = 30, .samples = 16000};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "hand_marks.hpp"
@@ -97,6 +99,87 @@ TEST(FilmTrack, RefusesFilmsWithoutAFace) {
     const fs::path nothing = fs::path(testing::TempDir()) / "nothing.mpg";
     write_whole(nothing, std::string("no film"));
     EXPECT_THROW(track_film(recited(), {.video = nothing}), InputError);
+}
+
+// The first 12 frames of a clip, each changed.
+fs::path remade(const fs::path& clip, const std::string& name,
+                const std::function<Frame(const Frame&)>& changed) {
+    const fs::path path = fs::path(testing::TempDir()) / name;
+    std::unique_ptr<FilmWriter> film;
+    FrameReader reader(clip);
+    for (int n = 0; n < 12; ++n) {
+        const Frame frame = changed(reader.next()->frame);
+        if (!film) film = open_film({frame.width, frame.height, {25, 1}, FilmFormat::kMkv, 16000}, path);
+        film->add_frame(view(frame));
+    }
+    film->finish();
+    return path;
+}
+
+Frame grey(Frame frame) {
+    for (std::size_t i = 0; i < frame.rgba.size(); i += 4)
+        frame.rgba[i] = frame.rgba[i + 2] = frame.rgba[i + 1];
+    return frame;
+}
+
+// Every factor-th pixel.
+Frame coarse(const Frame& frame, int factor) {
+    Frame made{frame.width / factor / 2 * 2, frame.height / factor / 2 * 2, {}};
+    const SmallPicture small = small_picture(frame, factor);
+    for (int y = 0; y < made.height; ++y) {
+        for (int x = 0; x < made.width; ++x) {
+            for (const std::uint8_t value : small.picture().at(x, y)) made.rgba.push_back(value);
+            made.rgba.push_back(255);
+        }
+    }
+    return made;
+}
+
+Frame lying(const Frame& frame) {
+    Frame made{frame.height, frame.width, std::vector<std::uint8_t>(frame.rgba.size())};
+    for (int y = 0; y < frame.height; ++y) {
+        for (int x = 0; x < frame.width; ++x)
+            std::copy_n(&frame.rgba[4 * (std::size_t(y) * frame.width + x)], 4,
+                        &made.rgba[4 * (std::size_t(x) * made.width + y)]);
+    }
+    return made;
+}
+
+// Twice, side by side.
+Frame doubled(const Frame& frame) {
+    Frame made{2 * frame.width, frame.height, {}};
+    const std::size_t row = std::size_t{4} * frame.width;
+    for (int y = 0; y < frame.height; ++y) {
+        for (int i = 0; i < 2; ++i)
+            made.rgba.insert(made.rgba.end(), &frame.rgba[y * row], &frame.rgba[y * row] + row);
+    }
+    return made;
+}
+
+TEST(FilmTrack, RefusesFilmsThatItCannotSeeLipsIn) {
+    const fs::path clip = clips() / "sbwo2p.mpg";
+    if (!fs::exists(clip)) GTEST_SKIP() << clip << " is not there";
+    EXPECT_NE(refused({.video = remade(clip, "grey.mkv", grey)}).find("no lips that can be told"),
+              std::string::npos);
+    EXPECT_NE(refused({.video = remade(clip, "lying.mkv", lying)}).find("an upright face"),
+              std::string::npos);
+    const auto far = remade(clip, "far.mkv", [](const Frame& frame) { return coarse(frame, 5); });
+    const std::string why = refused({.video = far});  // a mouth of 8 px
+    EXPECT_TRUE(why.find("at least 12 px") != std::string::npos || why.find("no face") != std::string::npos)
+        << why;
+    const Hint outside{.face = {.left_eye = {-9, 100}, .right_eye = {60, 100}, .eyes_seen = true}};
+    EXPECT_NE(refused({.video = clip, .hint = outside}).find("360 x 288 px"), std::string::npos);
+}
+
+TEST(FilmTrack, StaysWithOneOfTwoFaces) {
+    const fs::path clip = clips() / "sbwo2p.mpg";
+    if (!fs::exists(clip)) GTEST_SKIP() << clip << " is not there";
+    const FilmTrack track = track_film(recited(), {.video = remade(clip, "two.mkv", doubled)});
+    EXPECT_EQ(track.lost, 0);
+    EXPECT_TRUE(std::ranges::any_of(
+        track.report, [](const std::string& line) { return line.find("2 faces") != std::string::npos; }));
+    const auto& u = column(track.motion, "border_top_u_px").values;
+    EXPECT_LT(std::ranges::max(u) - std::ranges::min(u), 20);  // px; the faces are 360 apart
 }
 
 TEST(Hint, IsReadOrRefused) {
