@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "synth/scans/feature_pins.hpp"
 #include "synth/scans/fit_distances.hpp"
+#include "synth/scans/surface_fit.hpp"
 
 namespace viaface {
 namespace {
@@ -30,19 +31,6 @@ void turn_round(ScanMesh& mesh) {
     for (auto* triangles : {&mesh.triangles, &mesh.uv_triangles}) {
         for (Triangle& t : *triangles) std::swap(t[1], t[2]);
     }
-}
-
-// Left and right exchanged, along the axis that is stated to be theirs, or any.
-ScanFolder mirrored_back(ScanFolder scans) {
-    const Vector3d across = scans.view_from_scan ? Vector3d(scans.view_from_scan->row(0)) : Vector3d::UnitX();
-    const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * across * across.transpose();
-    ScanMesh& mesh = scans.postures.at("neutral").mesh;
-    turn_round(mesh);
-    mesh.nodes *= mirror;
-    for (auto& [name, place] : scans.landmarks) place = mirror * place;
-    scans.mirrored = false;
-    scans.remarks.push_back("mirrored back, as scans.json says");
-    return scans;
 }
 
 Similarity then(const Similarity& first, const Similarity& second) {
@@ -154,7 +142,7 @@ Similarity aligned_with(const GenericHead& generic, const ScanFolder& scans, Pai
     if (best.off > 2 * kFaceLike)
         refuse("nothing shaped like a face (" + with_digits(best.off, 1) + " mm off)", "a scan of a face");
     if (others[chosen] > 0) refuse(std::to_string(others[chosen] + 1) + " faces", "one head to a scan");
-    best = tried(all, whole, scan, best.from_scan, 30);
+    best = tried(all, whole, scan, best.from_scan, 300);
     head.remarks.push_back("aligned with the generic head, " + with_digits(best.off / 2, 2) + " mm off");
     return best.from_scan;
 }
@@ -201,86 +189,6 @@ void find_unit(AdaptedHead& head, double stated) {
                                ? "no unit: made of the generic head's size"
                                : "unit found: " + head.unit + ", the head is " +
                                      with_digits(head.mm_per_generic, 3) + " times the generic one's size");
-}
-
-// How far the scan is trusted: not where the generic head is hidden from a scanner (nostrils, behind
-// the lids' edges). [nodes]
-Eigen::VectorXd trust_in_scan(const GenericHead& generic) {
-    const Face& face = generic.face;
-    Eigen::VectorXd trust = Eigen::VectorXd::Zero(face.rest.rows());
-    for (const Triangle& t : generic.surface) {
-        for (const int node : t) {
-            const double y = face.rest(node, 1);
-            trust[node] = std::clamp((y + 100) / 20, 0.0, 1.0);  // the collar is the generic head's
-        }
-    }
-    constexpr int kSeenRows = 10;
-    for (int row = kSeenRows; row < LipGrid::kRows; ++row) {
-        for (int c = 0; c < LipGrid::kColumns; ++c) trust[face.lips.node(row, c)] = 0;
-    }
-    const auto seen = seen_nodes(face.rest, generic.surface);
-    for (Eigen::Index i = 0; i < trust.size(); ++i) trust[i] *= seen[static_cast<std::size_t>(i)];
-    return trust;
-}
-
-std::vector<bool> with_neighbours(const GenericHead& generic, const std::vector<bool>& nodes) {
-    std::vector<bool> more = nodes;
-    for (const Triangle& t : generic.surface) {
-        if (std::ranges::none_of(t, [&](int node) { return nodes[static_cast<std::size_t>(node)]; }))
-            continue;
-        for (const int node : t) more[static_cast<std::size_t>(node)] = true;
-    }
-    return more;
-}
-
-// Where each node would be if it stood to its neighbours as in `like`: amid them where that is all zero.
-Nodes amid_neighbours(const GenericHead& generic, const Nodes& nodes, const Nodes& like) {
-    const Nodes ways = nodes - like;
-    Nodes sum = Nodes::Zero(nodes.rows(), 3);
-    Eigen::VectorXd count = Eigen::VectorXd::Zero(nodes.rows());
-    for (const Triangle& t : generic.surface) {
-        for (const int node : t) {
-            sum.row(node) += ways.row(t[0]) + ways.row(t[1]) + ways.row(t[2]) - ways.row(node);
-            count[node] += 2;
-        }
-    }
-    return like + (count.cwiseMax(1).cwiseInverse().asDiagonal() * sum);
-}
-
-// Moves the nodes of triangles that are turned over, later those about them too, halfway to amid their
-// neighbours until none is, and where that does not help to where the generic head has them.
-void relax_turned(const GenericHead& generic, Nodes& nodes) {
-    constexpr int kRounds = 400, kRoundsToGrow = 50;
-    const Nodes amid = Nodes::Zero(nodes.rows(), 3);
-    for (int round = 0; round < kRounds; ++round) {
-        const auto turned = turned_triangles(generic, nodes);
-        if (turned.empty()) return;
-        std::vector<bool> moves(static_cast<std::size_t>(nodes.rows()));
-        for (const Triangle& t : turned) {
-            for (const int node : t) moves[static_cast<std::size_t>(node)] = true;
-        }
-        const bool early = round < kRounds / 2;
-        const int grown = round % (kRounds / 2) / kRoundsToGrow, rings = early ? std::min(grown, 1) : grown;
-        for (int ring = 0; ring < rings; ++ring) moves = with_neighbours(generic, moves);
-        const Nodes there = amid_neighbours(generic, nodes, early ? amid : Nodes(generic.face.rest));
-        for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
-            if (moves[static_cast<std::size_t>(i)]) nodes.row(i) = (nodes.row(i) + there.row(i)) / 2;
-        }
-    }
-}
-
-SmoothFit fitted(const GenericHead& generic, const NearestSurface& scan, const Nodes& start,
-                 std::vector<Pin> pins) {
-    constexpr FitStage kStages[] = {{40, 30, 5}, {20, 25, 6}, {10, 15, 5}, {6, 8, 4},
-                                    {4, 6, 3},   {2.5, 5, 3}, {1.6, 4, 3}};
-    constexpr FitStage kSettle[] = {{1.6, 3, 3}, {1, 2, 4}, {0.7, 2, 3}};
-    const Eigen::VectorXd trust = trust_in_scan(generic);
-    SmoothFit fit = fit_smoothly(start, generic.surface, scan, trust, pins, kStages);
-    // Once all are in their places the surface counts more than the picture.
-    for (Pin& pin : pins) pin.weight *= 0.02;
-    fit = fit_smoothly(start, generic.surface, scan, trust, pins, kSettle, &fit.nodes);
-    relax_turned(generic, fit.nodes);
-    return fit;
 }
 
 struct Region {
@@ -339,12 +247,21 @@ double corner_rise(const GenericHead& generic, const Nodes& nodes) {
     return (y(kLeftCorner) + y(kRightCorner)) / 2 - (y(0) + y(LipGrid::kColumns / 2)) / 2;
 }
 
-void weld_nodes(const Face& face, Nodes& nodes) {
-    for (std::size_t i = 0; i < face.weld.size(); ++i)
-        nodes.row(static_cast<Eigen::Index>(i)) = nodes.row(face.weld[i]).eval();
-}
-
 }  // namespace
+
+ScanFolder mirrored_back(ScanFolder scans) {
+    if (!scans.mirrored) return scans;
+    const Vector3d across = scans.view_from_scan ? Vector3d(scans.view_from_scan->row(0)) : Vector3d::UnitX();
+    const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * across * across.transpose();
+    for (auto& [name, scan] : scans.postures) {
+        turn_round(scan.mesh);
+        scan.mesh.nodes *= mirror;
+    }
+    for (auto& [name, place] : scans.landmarks) place = mirror * place;
+    scans.mirrored = false;
+    scans.remarks.push_back("mirrored back, as scans.json says");
+    return scans;
+}
 
 AdaptedHead adapt_head(const GenericHead& generic, const ScanFolder& scans) {
     if (scans.mirrored) return adapt_head(generic, mirrored_back(scans));

@@ -41,6 +41,9 @@ struct AdaptedHead {
     double smile = 0;                    // mm: how far the lips' corners stand above their generic place
 };
 
+// Left and right exchanged where `scans` says that they are: along the axis stated to be theirs, or any.
+ScanFolder mirrored_back(ScanFolder scans);
+
 // InputError("scans", ...) when no face, or more than one, is found, or a stated unit cannot be.
 AdaptedHead adapt_head(const GenericHead& generic, const ScanFolder& scans);
 

@@ -2,14 +2,19 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "facemodel/deformation_transfer.hpp"
+#include "facemodel/estimator.hpp"
 #include "facemodel/lips.hpp"
 #include "facemodel/pca.hpp"
 #include "synth/pose/eye_ball.hpp"
 #include "synth/pose/inside.hpp"
 #include "synth/pose/seats.hpp"
+#include "synth/scans/surface_fit.hpp"
+#include "synth/training/postures.hpp"
 
 namespace viaface {
 namespace {
@@ -20,11 +25,6 @@ constexpr double kModeTolerance = 1e-5;  // of the largest singular value
 
 Eigen::VectorXd flat(const Nodes& nodes) {
     return Eigen::Map<const Eigen::VectorXd>(nodes.data(), nodes.size());
-}
-
-void weld(const Face& face, Nodes& nodes) {
-    for (std::size_t i = 0; i < face.weld.size(); ++i)
-        nodes.row(static_cast<Eigen::Index>(i)) = nodes.row(face.weld[i]).eval();
 }
 
 bool on_surface(const FacePart& part) {
@@ -41,24 +41,19 @@ RowVector3d middle_of(const Nodes& nodes, const NodeLoop& loop) {
     return sum / static_cast<double>(loop.size());
 }
 
-double extent_of(const Nodes& nodes, const NodeLoop& loop) {
-    const RowVector3d middle = middle_of(nodes, loop);
-    double sum = 0;
-    for (const int node : loop) sum += (nodes.row(node) - middle).head<2>().norm();
-    return sum;
-}
-
 class Borrowing {
   public:
-    Borrowing(const GenericHead& lender, Nodes nodes)
-        : lender_(lender), face_(lender.face), rest_(std::move(nodes)) {
-        weld(face_, rest_);
+    Borrowing(const GenericHead& lender, Nodes nodes, const std::vector<OwnPosture>& own)
+        : lender_(lender), face_(lender.face), rest_(std::move(nodes)), jaw_and_tongue_(behind(lender)) {
+        weld_nodes(face_, rest_);
         seat_mouth();
         seat_eyes();
         for (Eigen::Index k = 0; k < lender.training.coefficients.cols(); ++k)
-            postures_.push_back(lender_posture(lender, k));
+            postures_.push_back(lender.posture(k));
         seat_points();
         transfer_.emplace(face_.rest, rest_, lender.surface, still_nodes());
+        for (const OwnPosture& posture : own)
+            own_.emplace(posture.name, on_rest(posture.nodes.rowwise() + shift_.transpose()));
     }
 
     BorrowedTalker talker(const Codex& codex, double size) const {
@@ -89,18 +84,14 @@ class Borrowing {
     }
 
     void seat_eyes() {
+        rest_ = eyes_seated(lender_, std::move(rest_));
         for (std::size_t side = 0; side < 2; ++side) {
-            const NodeLoop& lid = lender_.lids[side];
-            const double size = extent_of(rest_, lid) / extent_of(face_.rest, lid);
-            const RowVector3d from = middle_of(face_.rest, lid), to = middle_of(rest_, lid);
-            const FacePart& eye = part_named(face_, side == 0 ? "eye_left" : "eye_right");
-            auto ball = rest_.middleRows(eye.first_node, eye.nodes);
-            ball = (size * (ball.rowwise() - from)).rowwise() + to;
+            const double size = lid_seat(lender_, rest_, side).size;
             for (const char* lid_name : {"lashes_upper_", "lashes_lower_"}) {
                 const FacePart& lashes =
                     part_named(face_, std::string(lid_name) + (side == 0 ? "left" : "right"));
                 for (int i = lashes.first_node; i < lashes.first_node + lashes.nodes; ++i)
-                    seat_lash(i, lid, size);
+                    seat_lash(i, lender_.lids[side], size);
             }
         }
     }
@@ -135,15 +126,19 @@ class Borrowing {
     }
 
     Nodes transferred(Nodes pose) const {
-        weld(face_, pose);
-        Nodes moved = (*transfer_)(pose);
+        weld_nodes(face_, pose);
+        return on_rest((*transfer_)(pose));
+    }
+
+    // The surface's nodes of a posture, all others at rest.
+    Nodes on_rest(const Nodes& surface) const {
         Nodes result = rest_;
         for (const FacePart& part : face_.parts) {
             if (on_surface(part))
                 result.middleRows(part.first_node, part.nodes) =
-                    moved.middleRows(part.first_node, part.nodes);
+                    surface.middleRows(part.first_node, part.nodes);
         }
-        weld(face_, result);
+        weld_nodes(face_, result);
         return result;
     }
 
@@ -158,16 +153,93 @@ class Borrowing {
         return found;
     }
 
+    // Lower incisor and tongue of the lender's postures, by their points on skin and lips.
+    static LinearEstimator behind(const GenericHead& lender) {
+        constexpr double kNoise = 0.5;  // mm
+        const Eigen::MatrixXd& all = lender.training.configurations;
+        return {all.topRows(3 * kLowerIncisor), all.bottomRows(all.rows() - 3 * kLowerIncisor), {kNoise}};
+    }
+
+    // Points of a scanned posture: what no scan shows, as the lender moves it along.
+    Configuration own_points(const Nodes& nodes) const {
+        const Configuration& lender_rest = lender_.training.rest;
+        Configuration found = points(rest_, face_.rest, lender_rest);
+        Eigen::VectorXd outside = lender_rest.head(3 * kLowerIncisor);
+        for (int p = 0; p < kLowerIncisor; ++p) {
+            const Seat& seat = seats_[static_cast<std::size_t>(p)];
+            const Vector3d way = seat.at(nodes) - seat.at(rest_);
+            found.segment<3>(3 * p) += way;
+            outside.segment<3>(3 * p) += way;
+        }
+        const Eigen::Index inside = kCoordinates - 3 * kLowerIncisor;
+        found.tail(inside) += jaw_and_tongue_.estimate(outside) - lender_rest.tail(inside);
+        return found;
+    }
+
+    struct Posed {
+        Nodes nodes;
+        Configuration points;
+    };
+
+    std::string posture_name(std::size_t k) const {
+        return postures_.size() == talker_postures().size() ? talker_postures()[k].name : "";
+    }
+
+    // What scanned named shapes change in a mix of them.
+    std::optional<Nodes> own_share(const ShapeWeights& mix) const {
+        std::optional<Nodes> change;
+        for (const NamedShape& shape : face_.shapes) {
+            const auto own = own_.find(shape.name);
+            if (own == own_.end()) continue;
+            for (const auto& [name, weight] : mix) {
+                if (shape.name != name && shape.name != name + "_L" && shape.name != name + "_R") continue;
+                if (!change) change = Nodes::Zero(rest_.rows(), 3);
+                *change += weight * (own->second - transferred(face_.rest + shape.delta));
+            }
+        }
+        return change;
+    }
+
+    Posed posed(std::size_t k) const {
+        const std::string name = posture_name(k);
+        if (const auto own = own_.find(name); own != own_.end())
+            return {own->second, own_points(own->second)};
+        Nodes nodes = transferred(postures_[k]);
+        const auto change = name.empty() ? std::nullopt : own_share(talker_postures()[k].weights);
+        if (change) {
+            nodes += *change;
+            return {nodes, own_points(nodes)};
+        }
+        return {nodes, points(nodes, postures_[k],
+                              lender_.training.configurations.col(static_cast<Eigen::Index>(k)))};
+    }
+
+    // The lender's, as far as no scan takes their place, then what was scanned beyond them.
+    std::vector<Posed> all_posed() const {
+        std::vector<Posed> all;
+        std::set<std::string> known;
+        for (std::size_t k = 0; k < postures_.size(); ++k) {
+            all.push_back(posed(k));
+            known.insert(posture_name(k));
+        }
+        for (const NamedShape& shape : face_.shapes) known.insert(shape.name);
+        for (const auto& [name, nodes] : own_) {
+            if (!known.contains(name)) all.push_back({nodes, own_points(nodes)});
+        }
+        return all;
+    }
+
     void add_modes(BorrowedTalker& talker) const {
-        const auto count = static_cast<Eigen::Index>(postures_.size());
+        const std::vector<Posed> all = all_posed();
+        const auto count = static_cast<Eigen::Index>(all.size());
         PoseTraining& training = talker.training;
-        training = lender_.training;
         training.rest = points(rest_, face_.rest, lender_.training.rest);
+        training.configurations.resize(kCoordinates, count);
+        training.contours.resize(PoseTraining::kContourNumbers, count);
         Eigen::MatrixXd shapes = flat(rest_).replicate(1, count);
         for (Eigen::Index k = 0; k < count; ++k) {
-            const Nodes pose = transferred(postures_[static_cast<std::size_t>(k)]);
-            training.configurations.col(k) =
-                points(pose, postures_[static_cast<std::size_t>(k)], lender_.training.configurations.col(k));
+            const Nodes& pose = all[static_cast<std::size_t>(k)].nodes;
+            training.configurations.col(k) = all[static_cast<std::size_t>(k)].points;
             const Contour middle = row_of(face_.lips, pose, LipGrid::kMiddleRow),
                           inner = row_of(face_.lips, pose, LipGrid::kRows - 1);
             training.contours.col(k) << Eigen::Map<const Eigen::VectorXd>(middle.data(), middle.size()),
@@ -184,11 +256,14 @@ class Borrowing {
         talker.face.modes = components.modes;
         talker.face.mode_variance = components.variance;
         training.coefficients = components.all_coefficients(shapes);
+        for (const auto& [name, nodes] : own_) talker.own.push_back(name);
     }
 
     void add_shapes(Face& face) const {
         for (NamedShape& shape : face.shapes) {
-            const Nodes moved = transferred(face_.rest + shape.delta) - rest_;
+            const auto own = own_.find(shape.name);
+            const Nodes moved =
+                (own != own_.end() ? own->second : transferred(face_.rest + shape.delta)) - rest_;
             for (const FacePart& part : face_.parts) {
                 if (on_surface(part))
                     shape.delta.middleRows(part.first_node, part.nodes) =
@@ -246,31 +321,15 @@ class Borrowing {
     std::vector<Nodes> postures_;
     std::optional<DeformationTransfer> transfer_;
     std::vector<Seat> seats_;
+    LinearEstimator jaw_and_tongue_;
+    std::map<std::string, Nodes> own_;  // scanned postures and named shapes, as on_rest gives them
 };
 
 }  // namespace
 
-Nodes lender_posture(const GenericHead& lender, Eigen::Index posture) {
-    const Face& face = lender.face;
-    Nodes nodes = face.rest;
-    const Eigen::VectorXd shape = face.mean + face.modes * lender.training.coefficients.col(posture);
-    for (const FacePart& part : face.parts) {
-        if (part.drive != Drive::kModes) continue;
-        for (int i = part.first_node; i < part.first_node + part.nodes; ++i)
-            nodes.row(i) = shape.segment<3>(3 * i).transpose();
-    }
-    const Eigen::VectorXd contours = lender.training.contours.col(posture);
-    LipContours lips;
-    lips.middle = Eigen::Map<const Contour>(contours.data());
-    lips.inner = Eigen::Map<const Contour>(contours.data() + 3 * LipGrid::kColumns);
-    for (int c = 0; c < LipGrid::kColumns; ++c)
-        lips.outer.row(c) = nodes.row(lender.lip_border[static_cast<std::size_t>(c)]);
-    nodes.middleRows(face.lips.first_node, LipGrid::kRows * LipGrid::kColumns) = lip_rows(lips);
-    return nodes;
-}
-
-BorrowedTalker with_borrowed_motion(const GenericHead& lender, const Codex& codex, Nodes nodes, double size) {
-    return Borrowing(lender, std::move(nodes)).talker(codex, size);
+BorrowedTalker with_borrowed_motion(const GenericHead& lender, const Codex& codex, Nodes nodes, double size,
+                                    const std::vector<OwnPosture>& own) {
+    return Borrowing(lender, std::move(nodes), own).talker(codex, size);
 }
 
 }  // namespace viaface

@@ -94,6 +94,19 @@ std::vector<Triangle> turned_triangles(const GenericHead& generic, const Nodes& 
     return turned;
 }
 
+namespace {
+
+// Nodes that a triangle has: not those of scraps that were left out.
+std::vector<bool> joined_nodes(const ScanMesh& mesh) {
+    std::vector<bool> joined(static_cast<std::size_t>(mesh.nodes.rows()));
+    for (const Triangle& t : mesh.triangles) {
+        for (const int node : t) joined[static_cast<std::size_t>(node)] = true;
+    }
+    return joined;
+}
+
+}  // namespace
+
 void measure_fit(const GenericHead& generic, const NearestSurface& scan, AdaptedHead& head) {
     const auto open = seen_nodes(head.nodes, generic.surface);
     std::vector<Triangle> face = seen_face(generic);
@@ -114,15 +127,21 @@ void measure_fit(const GenericHead& generic, const NearestSurface& scan, Adapted
         }
     }
     const Eigen::VectorXd share = generic.face_share();
-    std::vector<Triangle> whole = generic.surface;  // the lips' inside too
+    std::vector<Triangle> whole = generic.surface;  // the lips' inside too, and the eyes
     std::erase_if(whole, [&](const Triangle& t) {
         return std::ranges::any_of(t, [&](int node) { return share[node] <= kWithinFace; });
     });
-    const NearestSurface drawn(head.nodes, whole);
+    for (const char* eye : {"eye_left", "eye_right"}) {
+        const auto& ball = part_named(generic.face, eye).triangles;
+        whole.insert(whole.end(), ball.begin(), ball.end());
+    }
+    const Nodes with_eyes = eyes_seated(generic, head.nodes);
+    const NearestSurface drawn(with_eyes, whole);
     const std::vector<bool> seen = seen_nodes(head.scan.mesh.nodes, head.scan.mesh.triangles);
+    const std::vector<bool> joined = joined_nodes(head.scan.mesh);
     for (Eigen::Index i = 0; i < head.scan.mesh.nodes.rows(); ++i) {
         const Vector3d place = head.scan.mesh.nodes.row(i);
-        if (!seen[static_cast<std::size_t>(i)]) continue;
+        if (!seen[static_cast<std::size_t>(i)] || !joined[static_cast<std::size_t>(i)]) continue;
         const SurfacePlace near = drawn(place);
         if (near.distance < 20 && !drawn.on_border(near)) add(place, near.distance, from_surface, lips_from);
     }

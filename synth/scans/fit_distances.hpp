@@ -16,8 +16,8 @@ std::vector<bool> seen_nodes(const Nodes& nodes, const std::vector<Triangle>& tr
 
 // Fills the distances and the count of flipped triangles. From the drawn surface: its triangles' middles and
 // nodes that are seen; from the scan: its nodes that are
-// seen from in front or from within 45 degrees of it. What lies over a hole or beyond the edge of the other
-// surface (eye openings, the lips' inside, the end of the scan) has no distance.
+// seen from in front or from within 45 degrees of it, to the drawn surface with its eyes. What lies over a
+// hole or beyond the edge of the other surface (the lips' inside, the end of the scan) has no distance.
 void measure_fit(const GenericHead& generic, const NearestSurface& scan, AdaptedHead& head);
 
 }  // namespace viaface

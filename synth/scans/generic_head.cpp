@@ -6,6 +6,7 @@
 
 #include "base/whole_file.hpp"
 #include "facemodel/gltf.hpp"
+#include "facemodel/lips.hpp"
 #include "facemodel/remesh.hpp"
 
 namespace viaface {
@@ -29,6 +30,13 @@ Vector3d middle_of(const Nodes& nodes, const NodeLoop& loop) {
     Vector3d sum = Vector3d::Zero();
     for (const int node : loop) sum += nodes.row(node).transpose();
     return sum / static_cast<double>(loop.size());
+}
+
+double extent_of(const Nodes& nodes, const NodeLoop& loop) {
+    const Eigen::RowVector3d middle = middle_of(nodes, loop).transpose();
+    double sum = 0;
+    for (const int node : loop) sum += (nodes.row(node) - middle).head<2>().norm();
+    return sum;
 }
 
 NodeLoop loop_round(const Face& face, const std::vector<Loop>& loops, const FacePart& eye) {
@@ -64,6 +72,42 @@ Eigen::VectorXd GenericHead::face_share() const {
                    falling(55, 75, -p.z());
     }
     return share;
+}
+
+Nodes GenericHead::posture(Eigen::Index k) const {
+    Nodes nodes = face.rest;
+    const Eigen::VectorXd shape = face.mean + face.modes * training.coefficients.col(k);
+    for (const FacePart& part : face.parts) {
+        if (part.drive != Drive::kModes) continue;
+        for (int i = part.first_node; i < part.first_node + part.nodes; ++i)
+            nodes.row(i) = shape.segment<3>(3 * i).transpose();
+    }
+    const Eigen::VectorXd contours = training.contours.col(k);
+    LipContours lips;
+    lips.middle = Eigen::Map<const Contour>(contours.data());
+    lips.inner = Eigen::Map<const Contour>(contours.data() + 3 * LipGrid::kColumns);
+    for (int c = 0; c < LipGrid::kColumns; ++c)
+        lips.outer.row(c) = nodes.row(lip_border[static_cast<std::size_t>(c)]);
+    nodes.middleRows(face.lips.first_node, LipGrid::kRows * LipGrid::kColumns) = lip_rows(lips);
+    return nodes;
+}
+
+LidSeat lid_seat(const GenericHead& generic, const Nodes& nodes, std::size_t side) {
+    const NodeLoop& lid = generic.lids[side];
+    return {extent_of(nodes, lid) / extent_of(generic.face.rest, lid),
+            middle_of(generic.face.rest, lid).transpose(), middle_of(nodes, lid).transpose()};
+}
+
+Nodes eyes_seated(const GenericHead& generic, Nodes nodes) {
+    for (std::size_t side = 0; side < 2; ++side) {
+        const LidSeat seat = lid_seat(generic, nodes, side);
+        const FacePart& eye = part_named(generic.face, side == 0 ? "eye_left" : "eye_right");
+        nodes.middleRows(eye.first_node, eye.nodes) =
+            (seat.size * (generic.face.rest.middleRows(eye.first_node, eye.nodes).rowwise() - seat.from))
+                .rowwise() +
+            seat.to;
+    }
+    return nodes;
 }
 
 GenericHead generic_head(const std::filesystem::path& talker) {

@@ -24,7 +24,18 @@ struct GenericHead {
 
     // Where the face is: 1 within, falling to 0 towards ears, hair and throat. [nodes]
     Eigen::VectorXd face_share() const;
+    // Skin and lips in the k-th posture of the training; the rest as at rest. [nodes of the face x 3]
+    Nodes posture(Eigen::Index k) const;
 };
+
+// `nodes` with the generic eyes moved and sized with the lids' openings.
+Nodes eyes_seated(const GenericHead& generic, Nodes nodes);
+// How much larger the opening of the lids is than the generic one, and their middles there and here.
+struct LidSeat {
+    double size = 1;
+    Eigen::RowVector3d from, to;  // mm
+};
+LidSeat lid_seat(const GenericHead& generic, const Nodes& nodes, std::size_t side);
 
 GenericHead generic_head(const std::filesystem::path& talker);
 

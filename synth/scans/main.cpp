@@ -42,6 +42,11 @@ nlohmann::json as_json(const FitDistances& d) {
     return {{"mean_mm", d.mean}, {"p95_mm", d.p95}, {"max_mm", d.largest}, {"samples", d.samples}};
 }
 
+nlohmann::json postures_of(const BorrowedTalker& talker) {
+    if (talker.own.empty()) return "Borrowed: the built-in talker's, by deformation transfer.";
+    return {{"scanned", talker.own}, {"others", "borrowed: the built-in talker's, by deformation transfer"}};
+}
+
 nlohmann::json description(const std::string& name, const AdaptedHead& head, const ScanFolder& scans,
                            const BorrowedTalker& talker) {
     const Eigen::Vector3d& s = talker.motion_scale;
@@ -61,6 +66,7 @@ nlohmann::json description(const std::string& name, const AdaptedHead& head, con
               {"motion",
                "Borrowed: performed by a gestural model for the built-in talker, carried to this face by "
                "deformation transfer and scaled; not measured from a person."},
+              {"postures", postures_of(talker)},
               {"motion_scale", {s.x(), s.y(), s.z()}},
               {"completed", head.completed},
               {"remarks", head.remarks}}},
@@ -77,13 +83,15 @@ nlohmann::json description(const std::string& name, const AdaptedHead& head, con
 int make(const fs::path& folder, const fs::path& output, const fs::path& lender_folder) {
     const fs::path place = fs::absolute(output / "").lexically_normal().parent_path();
     WholeFolder made(place);
-    const ScanFolder scans = read_scan_folder(folder);
+    const ScanFolder scans = mirrored_back(read_scan_folder(folder));
     const GenericHead lender = generic_head(lender_folder);
-    const AdaptedHead head = adapt_head(lender, scans);
+    AdaptedHead head = adapt_head(lender, scans);
+    const std::vector<OwnPosture> own = own_postures(lender, scans, head, head.remarks);
     print(head);
     const Codex codex = read_codex(read_bytes(lender_folder / "codex.via", "talker", kLargestFile));
-    BorrowedTalker talker = with_borrowed_motion(lender, codex, head.nodes, head.mm_per_generic);
-    std::fprintf(stderr, "viaface: modes, teeth, tongue, eyes, lids and motion are borrowed from %s\n",
+    BorrowedTalker talker = with_borrowed_motion(lender, codex, head.nodes, head.mm_per_generic, own);
+    std::fprintf(stderr, "viaface: %steeth, tongue, eyes and motion are borrowed from %s\n",
+                 own.empty() ? "modes, lids, " : "postures that were not scanned, ",
                  lender_folder.filename().c_str());
     paint_from_scan(head, lender, talker);
     write_whole(made.path() / "face.glb", write_glb(talker.face, "as the scan's"));

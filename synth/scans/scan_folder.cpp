@@ -202,7 +202,8 @@ std::map<std::string, std::string> posture_files(const fs::path& folder, const j
     for (const fs::path& file : files) {
         const std::size_t triangles =
             files.size() == 1 ? 1 : read_mesh(folder, file, settings).triangles.size();
-        if (triangles <= most) continue;
+        const bool called_neutral = file.stem().string().find("neutral") != std::string::npos;
+        if (triangles < most || (triangles == most && !called_neutral)) continue;
         most = triangles;
         finest = file.filename().string();
     }
@@ -281,14 +282,17 @@ ScanFolder read_scan_folder(const fs::path& folder) {
         if (!scans.files.contains("neutral")) refuse("scans.json", "no posture \"neutral\"", "one");
         for (const auto& [posture, name] : scans.files) {
             const fs::path file = beside(folder, name);
-            PaintedSurface surface{mended(read_mesh(folder, file, settings), scans.remarks), {}};
+            std::vector<std::string> mends;
+            PaintedSurface surface{mended(read_mesh(folder, file, settings), mends), {}};
+            for (const std::string& mend : mends) {
+                if (std::ranges::find(scans.remarks, mend) == scans.remarks.end())
+                    scans.remarks.push_back(mend);
+            }
             if (posture == "neutral") {
                 surface.picture = settings.contains("colour") ? picture_of(beside(folder, settings["colour"]))
                                                               : named_picture(surface.mesh, folder);
                 if (surface.picture.pixels.empty() && !surface.mesh.uv_triangles.empty())
                     surface.picture = likely_picture(surface.mesh, folder, file, scans.remarks);
-            } else {
-                scans.remarks.push_back("posture " + posture + " is not used: the modes are borrowed");
             }
             scans.postures.emplace(posture, std::move(surface));
         }

@@ -11,15 +11,16 @@ Similarity Similarity::inverse() const {
     return {1 / scale, turn.transpose(), -(turn.transpose() * shift) / scale};
 }
 
-Similarity similarity_between(const Nodes& from, const Nodes& to) {
-    const Eigen::Matrix4d m =
-        Eigen::umeyama(Eigen::Matrix3Xd(from.transpose()), Eigen::Matrix3Xd(to.transpose()));
+Similarity similarity_between(const Nodes& from, const Nodes& to, Size size) {
+    const Eigen::Matrix4d m = Eigen::umeyama(Eigen::Matrix3Xd(from.transpose()),
+                                             Eigen::Matrix3Xd(to.transpose()), size == Size::kFree);
     const double scale = std::cbrt(m.topLeftCorner<3, 3>().determinant());
     return {scale, m.topLeftCorner<3, 3>() / scale, m.topRightCorner<3, 1>()};
 }
 
 Alignment aligned(const Nodes& places, const Nodes& normals, const NearestSurface& scan, Similarity start,
-                  int rounds) {
+                  int rounds, Size size) {
+    constexpr double kStill = 1e-3;  // of the rms
     Alignment best{start, 0};
     for (int round = 0; round < rounds; ++round) {
         struct Match {
@@ -46,7 +47,10 @@ Alignment aligned(const Nodes& places, const Nodes& normals, const NearestSurfac
                 matches[static_cast<std::size_t>(k)].distance * matches[static_cast<std::size_t>(k)].distance;
         }
         best.rms = std::sqrt(sum / static_cast<double>(from.rows()));
-        best.to_scan = similarity_between(from, to);
+        const Similarity next = similarity_between(from, to, size);
+        const double moved = (next.carried(from) - best.to_scan.carried(from)).rowwise().norm().maxCoeff();
+        best.to_scan = next;
+        if (moved < kStill * best.rms) break;
     }
     return best;
 }

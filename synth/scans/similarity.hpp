@@ -19,15 +19,19 @@ struct Similarity {
     Similarity inverse() const;
 };
 
-Similarity similarity_between(const Nodes& from, const Nodes& to);  // least squares; row by row
+enum class Size { kFree, kKept };
+
+Similarity similarity_between(const Nodes& from, const Nodes& to,
+                              Size size = Size::kFree);  // least squares; row by row
 
 struct Alignment {
     Similarity to_scan;  // from the places to the scan
     double rms = 0;      // of the places that were kept, in the scan's unit
 };
 
-// Iterated closest points [BeslMcKay92] with the worst third left out each time. normals: of the places.
+// Iterated closest points [BeslMcKay92] with the worst third left out each time, until nothing
+// moves or for so many rounds. normals: of the places.
 Alignment aligned(const Nodes& places, const Nodes& normals, const NearestSurface& scan, Similarity start,
-                  int rounds);
+                  int rounds, Size size = Size::kFree);
 
 }  // namespace viaface

@@ -9,53 +9,13 @@
 #include "synth/scans/adaptation_to_scan.hpp"
 #include "synth/scans/borrowed_motion.hpp"
 #include "synth/scans/feature_pins.hpp"
+#include "tests/synth/scans/heads.hpp"
 
 namespace viaface {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-const GenericHead& momo() {
-    static const GenericHead head = generic_head(fs::path(VIAFACE_SOURCE_DIR) / "talkers/momo");
-    return head;
-}
-
-// Another head: the generic one, wider, with a longer nose, turned and in metres; without colours.
-Nodes other_head() {
-    Nodes nodes = momo().face.rest;
-    for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
-        const Vector3d p = nodes.row(i);
-        nodes(i, 0) *= 1.06;
-        nodes(i, 2) += 3 * std::exp(-(p - Vector3d(0, 35, 20)).squaredNorm() / 400);
-    }
-    return nodes;
-}
-
-const Eigen::Matrix3d kTurn = Eigen::AngleAxisd(0.8, Vector3d(1, 2, 0.5).normalized()).toRotationMatrix();
-
-Vector3d in_scan(const Vector3d& head) { return kTurn * head / 1000 + Vector3d(1, 2, 3); }
-
-ScanFolder scan_of(const Nodes& nodes) {
-    ScanFolder scans;
-    PaintedSurface surface;
-    surface.mesh.nodes = nodes;
-    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
-        surface.mesh.nodes.row(i) = in_scan(nodes.row(i).transpose()).transpose();
-    surface.mesh.triangles = momo().surface;
-    scans.postures["neutral"] = surface;
-    scans.files["neutral"] = "head.ply";
-    for (const char* name :
-         {"nose", "eye_left_outer", "eye_right_outer", "lip_corner_left", "lip_corner_right"}) {
-        Eigen::Index nearest = 0;
-        (momo().face.rest.rowwise() - generic_landmark(momo(), name).transpose())
-            .rowwise()
-            .squaredNorm()
-            .minCoeff(&nearest);
-        scans.landmarks[name] = in_scan(nodes.row(nearest).transpose());
-    }
-    return scans;
-}
 
 TEST(AdaptedHead, LiesOnAScanOfAnotherHeadInMetres) {
     const AdaptedHead head = adapt_head(momo(), scan_of(other_head()));
@@ -258,12 +218,11 @@ TEST(ScanFolder, RefusesMorePointsThanItTakes) {
     EXPECT_NE(error_of(folder).find("at most 12000000"), std::string::npos) << error_of(folder);
 }
 
-TEST(ScanFolder, SaysThatOtherPosturesAreNotUsed) {
+TEST(ScanFolder, TakesTheOneCalledNeutralOfEquallyFineMeshes) {
     const Folder folder;
-    folder.write("head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    folder.write("scans.json", R"({"postures": {"neutral": "head.obj", "a": "head.obj"}})");
-    const auto remarks = read_scan_folder(folder.path).remarks;
-    EXPECT_EQ(std::ranges::count(remarks, "posture a is not used: the modes are borrowed"), 1);
+    for (const char* name : {"a.obj", "neutral.obj", "z.obj"})
+        folder.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_EQ(read_scan_folder(folder.path).files.at("neutral"), "neutral.obj");
 }
 
 }  // namespace
