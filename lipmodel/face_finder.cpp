@@ -7,12 +7,15 @@
 #include <opencv2/objdetect.hpp>
 #include <stdexcept>
 
+#include "lipmodel/iris.hpp"
+
 namespace viaface {
 namespace {
 
 constexpr int kLongestSide = 320;   // px of the picture that is searched
 constexpr int kSmallestFace = 20;   // px there
 constexpr double kEyeHeight = 0.4;  // of the box, where eyes are in most faces
+constexpr double kEyeReach = 0.09;  // of the face's width
 constexpr double kEyePlace = 0.29;  // of the box, from its sides
 
 cv::CascadeClassifier loaded(const std::filesystem::path& file) {
@@ -45,6 +48,16 @@ std::optional<Eigen::Vector2d> nearest(const std::vector<cv::Rect>& found, const
         if (!best || (place - usual).norm() < (*best - usual).norm()) best = place;
     }
     return best;
+}
+
+// The iris of an eye whose place is known within `reach` px; that place where the picture ends before it.
+Eigen::Vector2d iris_about(const Picture& picture, const Eigen::Vector2d& eye, double reach) {
+    const PictureBox box{
+        static_cast<int>(std::lround(eye.x() - reach)), static_cast<int>(std::lround(eye.y() - reach)),
+        2 * static_cast<int>(std::lround(reach)) + 1, 2 * static_cast<int>(std::lround(reach)) + 1};
+    const bool inside = box.left >= 0 && box.top >= 0 && box.left + box.width <= picture.width &&
+                        box.top + box.height <= picture.height;
+    return inside && box.width >= 3 ? iris_in(picture, box) : eye;
 }
 
 cv::Rect largest(const std::vector<cv::Rect>& faces) {
@@ -109,8 +122,12 @@ std::optional<FaceInPicture> FaceFinder::find(const Picture& picture,
     const auto in_picture = [&](const Eigen::Vector2d& place) {
         return Eigen::Vector2d((place.array() + 0.5) * shrink - 0.5);
     };
-    return FaceInPicture{.left_eye = in_picture(left && right ? *left : usual_left),
-                         .right_eye = in_picture(left && right ? *right : usual_right),
+    const auto eye = [&](const std::optional<Eigen::Vector2d>& found, const Eigen::Vector2d& usual) {
+        return left && right ? iris_about(picture, in_picture(*found), kEyeReach * width * shrink)
+                             : in_picture(usual);
+    };
+    return FaceInPicture{.left_eye = eye(left, usual_left),
+                         .right_eye = eye(right, usual_right),
                          .eyes_seen = left && right,
                          .faces = static_cast<int>(faces.size())};
 }

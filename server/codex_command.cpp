@@ -11,6 +11,7 @@
 #include "synth/learn/learnt_talker.hpp"
 #include "synth/learn/performed_takes.hpp"
 #include "synth/learn/sentences.hpp"
+#include "synth/learn/take_files.hpp"
 #include "synth/motion/motion_input.hpp"
 #include "synth/talker/talker_shelf.hpp"
 #include "viapoints/codex_file.hpp"
@@ -42,10 +43,24 @@ double share_of(const std::string& text) {
     return rest == "%" ? percent / 100 : percent;
 }
 
+// Takes are one talker's: where they are another person's points, one scale is for all.
+std::optional<Eigen::Vector3d> common_scale(const std::filesystem::path& folder, const Talker& talker) {
+    std::vector<Person> persons;
+    for (const TakeFiles& files : find_takes(folder, "recordings")) {
+        const MotionInput input = read_motion(files.motion, talker);
+        if (input.person) persons.push_back(*input.person);
+    }
+    return persons.empty() ? std::nullopt : std::optional(median_scale(persons));
+}
+
 RecordedTakes takes_of(const CodexOptions& options) {
     const auto talker = talker_at(options.talker);
-    const auto read = [&](const std::filesystem::path& file) {
-        MotionInput input = read_motion(file, *talker);
+    MotionInputOptions reading{.person = {.scale = common_scale(options.folder, *talker)}};
+    const auto read = [&](const std::filesystem::path& file, const PhoneSequence& phones) {
+        const std::size_t last = phones.phones.size() - 1;
+        reading.person.quiet_s = {{phones.begin_s(0), phones.end_s(0)},
+                                  {phones.begin_s(last), phones.end_s(last)}};
+        MotionInput input = read_motion(file, *talker, reading);
         for (const std::string& line : input.report) tell(file.filename().string() + ": " + line);
         return std::move(input.motion);
     };

@@ -1,5 +1,6 @@
 #include "viapoints/another_person.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -101,10 +102,22 @@ void find_scale(Person& person, const Configuration& talker_rest, const PersonOp
 
 Person measure_person(const Motion& motion, const Configuration& talker_rest, const PersonOptions& options) {
     Person person;
-    person.rest = rest_of(motion, options.rest_s);
+    person.rest = rest_of(motion, options.rest_s, options.quiet_s);
     person.axes = face_axes(person.rest.points, talker_rest, options.axes, options.up_axis);
     find_scale(person, talker_rest, options);
     return person;
+}
+
+Vector3d median_scale(const std::vector<Person>& recordings) {
+    Vector3d median;
+    for (Index axis = 0; axis < 3; ++axis) {
+        std::vector<double> scales;
+        for (const Person& person : recordings) scales.push_back(person.scale[axis]);
+        const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+        std::ranges::nth_element(scales, middle);
+        median[axis] = *middle;
+    }
+    return median;
 }
 
 Motion as_talker(Motion motion, const Person& person, const Configuration& talker_rest) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "viapoints/face_axes.hpp"
 #include "viapoints/rest.hpp"
@@ -15,10 +16,11 @@
 namespace viaface {
 
 struct PersonOptions {
-    std::string axes = "found";                            // face_axes.hpp
-    std::string up_axis = {};                              // of the file when it tells: "+Z"
-    std::optional<std::pair<double, double>> rest_s = {};  // from, to; else found
-    std::optional<Eigen::Vector3d> scale = {};             // else found
+    std::string axes = "found";                 // face_axes.hpp
+    std::string up_axis = {};                   // of the file when it tells: "+Z"
+    std::optional<TimeSpan> rest_s = {};        // else found
+    std::vector<TimeSpan> quiet_s = {};         // when he does not speak, where it is known
+    std::optional<Eigen::Vector3d> scale = {};  // else found
 };
 
 struct Person {
@@ -33,6 +35,9 @@ struct Person {
 // InputError("--axes"), ("--rest") or ("--scale") for what is not such, or cannot be found.
 Person measure_person(const Motion& motion, const Configuration& talker_rest,
                       const PersonOptions& options = {});
+
+// Of each axis over several recordings of one person, at least one: what each says of itself varies.
+Eigen::Vector3d median_scale(const std::vector<Person>& recordings);
 
 Motion as_talker(Motion motion, const Person& person, const Configuration& talker_rest);
 

@@ -88,7 +88,13 @@ std::size_t first_from(const Motion& motion, double time_s) {
     return static_cast<std::size_t>(std::ranges::lower_bound(motion.time_s, time_s) - motion.time_s.begin());
 }
 
-Span found_rest(const Motion& motion) {
+bool is_within(const std::vector<TimeSpan>& quiet_s, double from_s, double to_s) {
+    return std::ranges::any_of(
+        quiet_s, [&](const TimeSpan& span) { return from_s >= span.first && to_s <= span.second; });
+}
+
+// Without quiet times anywhere; nothing where no window serves.
+std::optional<Span> found_rest(const Motion& motion, const std::vector<TimeSpan>& quiet_s) {
     const double limit = closed_limit(motion);
     std::vector<double> sums = {0};  // of squared speeds
     for (std::size_t i = 0; i + 1 < motion.size(); ++i)
@@ -102,19 +108,19 @@ Span found_rest(const Motion& motion) {
         if (!whole_window || behind < i + 2) continue;
         const double speed = (sums[behind - 1] - sums[i]) / static_cast<double>(behind - 1 - i);
         if (speed >= least) continue;
+        if (!quiet_s.empty() && !is_within(quiet_s, motion.time_s[i], motion.time_s[behind - 1])) continue;
         const Configuration mean = mean_over(motion, {i, behind});
         if (!is_whole(motion, mean) || opening(mean) > limit + kSame) continue;
         least = speed;
         best = {i, behind};
     }
-    if (best.behind == 0)
-        throw InputError("--rest", "not to be found", "T0-T1 in s, where the face is at rest");
-    return best;
+    return best.behind == 0 ? std::nullopt : std::optional(best);
 }
 
 }  // namespace
 
-Rest rest_of(const Motion& motion, const std::optional<std::pair<double, double>>& given_s) {
+Rest rest_of(const Motion& motion, const std::optional<TimeSpan>& given_s,
+             const std::vector<TimeSpan>& quiet_s) {
     Span span{};
     if (given_s) {
         span = {first_from(motion, given_s->first), first_from(motion, given_s->second)};
@@ -123,7 +129,11 @@ Rest rest_of(const Motion& motion, const std::optional<std::pair<double, double>
         if (!is_whole(motion, mean_over(motion, span)))
             throw InputError("--rest", given, "a time at which every point is measured");
     } else {
-        span = found_rest(motion);
+        std::optional<Span> found;
+        if (!quiet_s.empty()) found = found_rest(motion, quiet_s);
+        if (!found) found = found_rest(motion, {});
+        if (!found) throw InputError("--rest", "not to be found", "T0-T1 in s, where the face is at rest");
+        span = *found;
     }
     return {mean_over(motion, span), motion.time_s[span.first], motion.time_s[span.behind - 1]};
 }

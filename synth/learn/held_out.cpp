@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <optional>
 #include <sstream>
 
 #include "base/error.hpp"
@@ -48,27 +50,73 @@ Beside beside(const Codex& codex, const Take& take, const Selection& selection) 
             to_points(codex.basis, spline.at(std::vector<double>(from, to)))};
 }
 
-RowMatrix stacked(const std::vector<Beside>& takes, RowMatrix Beside::*part, int point) {
+// Some columns made of each take's points, of all takes one under the other.
+using Columns = std::function<RowMatrix(const RowMatrix&)>;
+
+RowMatrix stacked(const std::vector<Beside>& takes, RowMatrix Beside::*part, const Columns& columns) {
+    std::vector<RowMatrix> blocks;
     Eigen::Index rows = 0;
-    for (const Beside& take : takes) rows += (take.*part).rows();
-    RowMatrix all(rows, 3);
-    Eigen::Index at = 0;
     for (const Beside& take : takes) {
-        all.middleRows(at, (take.*part).rows()) = (take.*part).middleCols<3>(3 * point);
-        at += (take.*part).rows();
+        blocks.push_back(columns(take.*part));
+        rows += blocks.back().rows();
+    }
+    RowMatrix all(rows, blocks.front().cols());
+    Eigen::Index at = 0;
+    for (const RowMatrix& block : blocks) {
+        all.middleRows(at, block.rows()) = block;
+        at += block.rows();
     }
     return all;
 }
 
-PointFigures figures_of(const std::vector<Beside>& takes, int point) {
-    const RowMatrix measured = stacked(takes, &Beside::measured, point);
-    const RowMatrix spoken = stacked(takes, &Beside::spoken, point);
+struct Likeness {
+    double correlation, rms_mm, spread_mm;
+};
+
+Likeness likeness(const std::vector<Beside>& takes, const Columns& columns) {
+    const RowMatrix measured = stacked(takes, &Beside::measured, columns);
+    const RowMatrix spoken = stacked(takes, &Beside::spoken, columns);
     const RowMatrix m = measured.rowwise() - measured.colwise().mean();
     const RowMatrix s = spoken.rowwise() - spoken.colwise().mean();
     const double samples = static_cast<double>(measured.rows());
     const double both = m.norm() * s.norm();
-    return {point, both > 0 ? m.cwiseProduct(s).sum() / both : 0,
-            (measured - spoken).norm() / std::sqrt(samples), m.norm() / std::sqrt(samples)};
+    return {both > 0 ? m.cwiseProduct(s).sum() / both : 0, (measured - spoken).norm() / std::sqrt(samples),
+            m.norm() / std::sqrt(samples)};
+}
+
+PointFigures figures_of(const std::vector<Beside>& takes, int point) {
+    const Likeness found =
+        likeness(takes, [&](const RowMatrix& points) { return points.middleCols<3>(3 * point); });
+    return {point, found.correlation, found.rms_mm, found.spread_mm};
+}
+
+struct Pair {
+    int first, second;
+};
+
+// Along an axis, of the first pair of which both points are measured.
+std::optional<LengthFigures> length_of(const std::vector<Beside>& takes, const std::string& name, int axis,
+                                       const std::vector<Pair>& pairs, const std::vector<int>& measured) {
+    const auto has = [&](int point) { return std::ranges::binary_search(measured, point); };
+    const auto pair = std::ranges::find_if(pairs, [&](Pair p) { return has(p.first) && has(p.second); });
+    if (pair == pairs.end()) return std::nullopt;
+    const Likeness found = likeness(takes, [&](const RowMatrix& points) -> RowMatrix {
+        return points.col(3 * pair->first + axis) - points.col(3 * pair->second + axis);
+    });
+    return LengthFigures{name, found.correlation, found.rms_mm, found.spread_mm};
+}
+
+std::vector<LengthFigures> lengths_of(const std::vector<Beside>& takes, const std::vector<int>& measured) {
+    std::vector<LengthFigures> figures;
+    for (const auto& length :
+         {length_of(takes, "opening", 1,
+                    {{kInnerTop, kInnerBottom}, {kBorderTop, kBorderBottom}, {kLipTop, kLipBottom}},
+                    measured),
+          length_of(takes, "mouth width", 0, {{kBorderLeft, kBorderRight}, {kLipCornerLeft, kLipCornerRight}},
+                    measured)}) {
+        if (length) figures.push_back(*length);
+    }
+    return figures;
 }
 
 double root_mean_square(const std::vector<PointFigures>& points, double PointFigures::*figure) {
@@ -94,8 +142,9 @@ HeldOutFigures check_held_out(const RecordedTakes& takes, double share, const st
         for (std::size_t i = 0; i < 3; ++i) figures.phones_at_level[i] += selection.phones_at_level[i];
         spoken.push_back(beside(learnt.codex, *take, selection));
     }
-    for (const int point : measured_points(takes.takes.front().take.motion.positions, field))
-        figures.points.push_back(figures_of(spoken, point));
+    const std::vector<int> measured = measured_points(takes.takes.front().take.motion.positions, field);
+    for (const int point : measured) figures.points.push_back(figures_of(spoken, point));
+    figures.lengths = lengths_of(spoken, measured);
     figures.rms_mm = root_mean_square(figures.points, &PointFigures::rms_mm);
     figures.spread_mm = root_mean_square(figures.points, &PointFigures::spread_mm);
     return figures;
@@ -116,6 +165,11 @@ std::string as_text(const HeldOutFigures& figures) {
     for (const PointFigures& each : figures.points) {
         std::snprintf(line, sizeof line, "%-20s %6.2f %8.2f %10.2f\n", point_name(each.point).data(),
                       each.correlation, each.rms_mm, each.spread_mm);
+        text += line;
+    }
+    for (const LengthFigures& each : figures.lengths) {
+        std::snprintf(line, sizeof line, "%-20s %6.2f %8.2f %10.2f\n", each.name.c_str(), each.correlation,
+                      each.rms_mm, each.spread_mm);
         text += line;
     }
     std::snprintf(line, sizeof line, "%-20s %6s %8.2f %10.2f\n", "all", "", figures.rms_mm,

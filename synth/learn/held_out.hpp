@@ -18,10 +18,18 @@ struct PointFigures {
     double correlation = 0, rms_mm = 0, spread_mm = 0;
 };
 
+// Likewise of the opening between the lips (innermost pair measured, along y) and of the mouth's width (along
+// x): what is seen of a mouth from the front.
+struct LengthFigures {
+    std::string name;
+    double correlation = 0, rms_mm = 0, spread_mm = 0;
+};
+
 struct HeldOutFigures {
     std::size_t learned = 0;                  // takes
     std::vector<std::string> left_out;        // names of takes
     std::vector<PointFigures> points;         // those measured, in the layout's order
+    std::vector<LengthFigures> lengths;       // those measured
     std::array<int, 3> phones_at_level = {};  // exact, class, half
     double rms_mm = 0, spread_mm = 0;         // over all points
 };

@@ -76,8 +76,8 @@ Motion in_learned_steps(Motion motion) {
     return made;
 }
 
-Motion motion_of(const std::filesystem::path& file, const MotionReader& read) {
-    Motion motion = read(file);
+Motion motion_of(const std::filesystem::path& file, const MotionReader& read, const PhoneSequence& phones) {
+    Motion motion = read(file, phones);
     measured_points(motion.positions, "motion");
     make_even(motion);
     return in_learned_steps(std::move(motion));
@@ -118,8 +118,9 @@ PhoneSequence within(PhoneSequence phones, const Motion& motion) {
 }
 
 RecordedTake read_take(const TakeFiles& files, const MotionReader& read_motion, const std::string& field) {
-    Motion motion = of_file(files.motion, field, [&] { return motion_of(files.motion, read_motion); });
     Spoken spoken = spoken_in(files, field);
+    Motion motion = of_file(files.motion, field,
+                            [&] { return motion_of(files.motion, read_motion, spoken.utterance.phones); });
     const double sound_s = spoken.utterance.sound.seconds(), motion_s = motion.time_s.back();
     return of_file(files.motion, field, [&] {
         if (std::abs(sound_s - motion_s) > kEndsApart) {

@@ -26,8 +26,9 @@ inline constexpr double kOtherScale =
     0.08;                                 // share that the size of a take's points may differ from the median
 inline constexpr double kOtherPlace = 6;  // mm, that a take's points at rest may lie from the median, in mean
 
-// One motion file as motion of the talker's points, mm, in his head frame; InputError for what is none.
-using MotionReader = std::function<Motion(const std::filesystem::path&)>;
+// One motion file as motion of the talker's points, mm, in his head frame, during which these phones are
+// spoken; InputError for what is none.
+using MotionReader = std::function<Motion(const std::filesystem::path&, const PhoneSequence&)>;
 
 // Motion comes at a fixed rate of at least 20 Hz; under 50 Hz (a film's) samples are put between its own, on
 // the minimum-jerk spline through them. `progress` hears a line for every take. InputError(field, ...) naming

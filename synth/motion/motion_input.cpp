@@ -173,6 +173,7 @@ class Reading {
         say("scale: %.3f, %.3f, %.3f (width %s, height %s)", person.scale.x(), person.scale.y(),
             person.scale.z(), person.width_from.empty() ? "not measured" : person.width_from.c_str(),
             person.height_from.empty() ? "not measured" : person.height_from.c_str());
+        input_.person = person;
         carry_head(person, talker_rest);
         return as_talker(std::move(motion), person, talker_rest);
     }

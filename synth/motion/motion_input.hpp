@@ -37,6 +37,7 @@ struct MotionInputOptions {
 struct MotionInput {
     Motion motion;                        // mm, the talker's head frame
     std::vector<Eigen::Isometry3d> head;  // [samples]: where the head has gone, in the head frame; or none
+    std::optional<Person> person = {};    // where the points are another person's
     std::vector<std::string> report;      // lines for people
 };
 

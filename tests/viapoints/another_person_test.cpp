@@ -135,6 +135,32 @@ TEST(AnotherPerson, RestAndScaleMayBeGiven) {
     EXPECT_THROW(measure_person(motion, talker_rest(), options), InputError);
 }
 
+TEST(AnotherPerson, RestLiesInTheQuietWhereThatIsKnown) {
+    Motion motion = person(Eigen::Matrix3d::Identity(), Vector3d::Ones());
+    for (int i = 0; i < 100;
+         ++i)  // before he speaks the nose trembles; at 2.36 s he is closed again, and stiller
+        motion.positions(i, 3 * kNose) += 0.3 * std::sin(2.0 * i);
+    for (int i = 200; i < 260; ++i) motion.positions.row(i) = motion.positions.row(0);
+    const Person anywhere = measure_person(motion, talker_rest());
+    EXPECT_GE(anywhere.rest.from_s, 1.9);
+    PersonOptions options;
+    options.quiet_s = {{0, 0.8}, {2.9, 2.99}};
+    const Person quiet = measure_person(motion, talker_rest(), options);
+    EXPECT_LE(quiet.rest.to_s, 0.8);
+    options.quiet_s = {{2.9, 2.99}};  // shorter than a rest: looked for everywhere
+    EXPECT_EQ(measure_person(motion, talker_rest(), options).rest.from_s, anywhere.rest.from_s);
+}
+
+TEST(AnotherPerson, OneScaleIsForAllRecordings) {
+    std::vector<Person> recordings;
+    for (const double x : {1.2, 0.9, 1.0, 3.0, 0.8}) {
+        const Motion motion = person(Eigen::Matrix3d::Identity(), Vector3d(1 / x, 2, 1));
+        recordings.push_back(measure_person(motion, talker_rest()));
+    }
+    EXPECT_NEAR(median_scale(recordings).x(), 1.0, 1e-9);
+    EXPECT_NEAR(median_scale(recordings).y(), 0.5, 1e-9);
+}
+
 TEST(AnotherPerson, WhatCannotBeToldIsRefused) {
     Motion motion = person(Eigen::Matrix3d::Identity(), Vector3d::Ones());
     for (int p = 0; p < kPoints; ++p) {

@@ -31,7 +31,7 @@ inline const Codex& momo_codex() {
     return codex;
 }
 
-inline Motion csv_motion(const fs::path& file) { return read_motion_csv(file).motion; }
+inline Motion csv_motion(const fs::path& file, const PhoneSequence&) { return read_motion_csv(file).motion; }
 
 class InFolder : public ::testing::Test {
   protected:

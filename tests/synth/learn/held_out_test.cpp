@@ -39,6 +39,8 @@ TEST(HeldOut, SpokenPointsFollowTheRecited) {
     }
     for (const int lip : {static_cast<int>(kInnerBottom), static_cast<int>(kLowerIncisor)})
         EXPECT_GT(fifth_left_out().points[static_cast<std::size_t>(lip)].correlation, 0.8) << point_name(lip);
+    ASSERT_EQ(fifth_left_out().lengths.size(), 2u);
+    EXPECT_GT(fifth_left_out().lengths[0].correlation, 0.8) << fifth_left_out().lengths[0].name;
     EXPECT_LT(fifth_left_out().rms_mm, 0.7 * fifth_left_out().spread_mm);
 }
 
