@@ -16,8 +16,8 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 
 const Vector3d kPivot(0, 35, -106);              // mm: between the ears
-const Vector3d kTarget(0, 41, -106);             // mm: the middle of a square picture
-constexpr double kShown = 282;                   // mm over the shorter side, at the target
+const Vector3d kTarget(0, 43, -106);             // mm: the middle of a square picture
+constexpr double kShown = 300;                   // mm over the shorter side, at the target
 constexpr double kCameraBelow = 0.0116;          // of its distance, below the target
 constexpr double kFarAway = 1e4;                 // mm: where an orthographic camera stands
 constexpr double kNearer = 300, kFarther = 300;  // mm around the target that can be seen

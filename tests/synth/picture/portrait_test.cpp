@@ -20,7 +20,7 @@ using testing::two_balls;
 using testing::wandering;
 
 const View kSmallBlack{.width = 256, .height = 256, .background = Rgb{0, 0, 0}};
-constexpr double kMillimetresPerPixel = 282.0 / 256;
+constexpr double kMillimetresPerPixel = 300.0 / 256;
 
 // Pixels covered by the face: over white and over black a pixel differs by what shows through.
 double covered(const Face& face, View view) {
@@ -60,7 +60,7 @@ TEST(Portrait, SquareCoversItsArea) {
 // A ball's outline is a circle; the flat facets of 32 rings cost less than half a per cent.
 TEST(Portrait, BallCoversItsDisc) {
     Face face;
-    const double radius = 60, distance = 282 / 2 / std::tan(8.5 * std::numbers::pi / 180);
+    const double radius = 60, distance = 300 / 2 / std::tan(8.5 * std::numbers::pi / 180);
     add_ball(face, Material::kSkin, radius, {0, kMiddleY, kMiddleZ}, 32);
     const double seen =
         radius / std::sqrt(1 - radius * radius / (distance * distance)) / kMillimetresPerPixel;

@@ -190,7 +190,7 @@ TEST(Portrait, TheBarHidesTheEyesAndNothingElse) {
         high = high.cwiseMax(ball.colwise().maxCoeff().transpose());
     }
     const Vector3d box = high - low;
-    const double nearer = 943 / (943 - 106 - (low.z() + high.z()) / 2), mm = 282.0 / 256 / nearer;
+    const double nearer = 1004 / (1004 - 106 - (low.z() + high.z()) / 2), mm = 300.0 / 256 / nearer;
     const double bar = (box.x() + 0.5 * box.y()) * 1.5 * box.y();
     EXPECT_NEAR(black * mm * mm, bar, 0.15 * bar);
 }
