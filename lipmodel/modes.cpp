@@ -101,6 +101,20 @@ int carried_modes(const LipBody& body, const Eigen::MatrixXd& frames, double noi
         above_noise(spectrum_of(span_of(body.spread), goals_of(body, frames), noise_mm)).size());
 }
 
+Eigen::MatrixXd frames_like(const LipModel& model) {
+    const Eigen::Index modes = model.modes.cols(),
+                       times = std::max<Eigen::Index>(1, model.frames / (2 * modes));
+    const MarkedPoints mean = marked_of(as_column(model.rest) + model.mean);
+    Eigen::MatrixXd frames(mean.size(), 2 * modes * times);
+    for (Eigen::Index i = 0; i < modes; ++i) {
+        const MarkedPoints far =
+            std::sqrt(static_cast<double>(modes) * model.variance[i]) * marked_of(model.modes.col(i));
+        frames.middleCols(2 * i * times, times) = (mean + far).replicate(1, times);
+        frames.middleCols((2 * i + 1) * times, times) = (mean - far).replicate(1, times);
+    }
+    return frames;
+}
+
 LipModel with_modes(const LipModel& model, int modes) {
     LipModel fewer = model;
     const Eigen::Index kept = std::clamp<Eigen::Index>(modes, 1, model.modes.cols());

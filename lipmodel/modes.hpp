@@ -35,6 +35,11 @@ LipModel learn_lips(const LipBody& body, const Eigen::MatrixXd& frames, const Li
 // How many modes of the frames lie above the noise: what the data carry.
 int carried_modes(const LipBody& body, const Eigen::MatrixXd& frames, double noise_mm);
 
+// Marked points [48 x frames] with the model's mean and covariance, about as many as it was learned from,
+// each by 2 M at least: to go on learning from a model whose own frames are gone [Basu98, 6.3]. They stand on
+// each mode at sqrt(M lambda) either side of the mean.
+Eigen::MatrixXd frames_like(const LipModel& model);
+
 // The first of a model's modes, no more than it has: from robustness (few) to accuracy (many) [Basu98, 6.3].
 // What the others carried is left over.
 LipModel with_modes(const LipModel& model, int modes);

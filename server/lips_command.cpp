@@ -44,16 +44,26 @@ void add_learning(CLI::App* app, LearningOptions& options) {
 
 Command add_train(CLI::App& lips) {
     struct Options : LearningOptions {
-        std::filesystem::path output;
+        std::filesystem::path output, from;
+        double least_confidence = 0.9;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* app = lips.add_subcommand("train", "Learns the modes of lips from motion.");
+    CLI::App* app =
+        lips.add_subcommand("train", "Learns the modes of lips from motion, or goes on from a lip model.");
     add_learning(app, *options);
+    app->add_option("--from", options->from,
+                    "a lip model to go on from: it counts as many frames as it was learned from");
+    app->add_option("--least-confidence", options->least_confidence,
+                    "0 to 1: samples of lips tracked with less are left out")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
     app->add_option("-o,--output", options->output, "the lip model to write")->required();
     return [options] {
         const auto talker = TalkerShelf(talkers_folder()).load(options->talker);
-        const LipFrames frames = read_lip_frames(options->motions, *talker);
-        const LipModel model = learn_from(frames, options->training, options->motions);
+        const LipFrames frames = read_lip_frames(options->motions, *talker, options->least_confidence);
+        const LipModel model = options->from.empty() ? learn_from(frames, options->training, options->motions)
+                                                     : learn_on(load_lip_model(options->from), frames,
+                                                                options->training, options->motions);
         write_whole(options->output, write_lip_model(model));
         std::cout << model_text(model);
         return 0;

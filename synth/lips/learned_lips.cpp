@@ -32,6 +32,17 @@ LipModel learn_from(const LipFrames& frames, const LipTraining& training,
     }
 }
 
+LipModel learn_on(const LipModel& model, const LipFrames& frames, const LipTraining& training,
+                  const std::vector<std::filesystem::path>& sources) {
+    const Eigen::MatrixXd before = frames_like(model);
+    LipFrames all{Eigen::MatrixXd(before.rows(), before.cols() + frames.points.cols())};
+    all.points << before, frames.points;
+    all.rest = marked_of(as_column(model.rest));
+    LipModel made = learn_from(all, training, sources);
+    made.provenance = (model.provenance + "; then " + made.provenance).substr(0, kLongestProvenance);
+    return made;
+}
+
 std::string model_text(const LipModel& model) {
     std::array<char, 160> line{};
     std::snprintf(line.data(), line.size(), "%d frames, %d modes with %.2f%% of the variance\n", model.frames,

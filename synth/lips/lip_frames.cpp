@@ -1,5 +1,6 @@
 #include "synth/lips/lip_frames.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/error.hpp"
@@ -47,13 +48,18 @@ LipFrames joined(const std::vector<LipFrames>& parts) {
 
 }  // namespace
 
-LipFrames frames_of(const Motion& motion) {
+LipFrames frames_of(const Motion& motion, double least_confidence) {
+    const auto confidence = std::ranges::find(motion.extra, "confidence", &ExtraColumn::name);
+    const auto doubted = [&](std::size_t i) {
+        return confidence != motion.extra.end() && !(confidence->values[i] >= least_confidence);
+    };
     std::vector<std::size_t> complete;
     for (std::size_t i = 0; i < motion.size(); ++i) {
-        if (lip_points(motion.at(i)).allFinite()) complete.push_back(i);
+        if (lip_points(motion.at(i)).allFinite() && !doubted(i)) complete.push_back(i);
     }
     if (complete.empty())
-        throw InputError("motion", "no sample with all lip points", "the 16 points border_* and inner_*");
+        throw InputError("motion", "no sample with all lip points that is sure enough",
+                         "the 16 points border_* and inner_*");
     LipFrames frames;
     frames.points.resize(LipMesh::kMarkedCoordinates, static_cast<Eigen::Index>(complete.size()));
     for (std::size_t i = 0; i < complete.size(); ++i)
@@ -62,13 +68,15 @@ LipFrames frames_of(const Motion& motion) {
     return frames;
 }
 
-LipFrames read_lip_frames(const std::vector<std::filesystem::path>& motions, const Talker& talker) {
+LipFrames read_lip_frames(const std::vector<std::filesystem::path>& motions, const Talker& talker,
+                          double least_confidence) {
     std::vector<LipFrames> parts;
     std::size_t blends = 0;
     for (const auto& path : motions) {
         const bool blend = is_blend_recording(path);
         blends += blend ? 1 : 0;
-        parts.push_back(frames_of(read_motion(path, talker, blend ? performed() : measured()).motion));
+        parts.push_back(
+            frames_of(read_motion(path, talker, blend ? performed() : measured()).motion, least_confidence));
     }
     if (blends > 0 && blends < motions.size())
         throw InputError("motion", "measured points and blend shapes", "files of one kind");

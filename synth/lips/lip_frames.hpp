@@ -16,14 +16,17 @@ struct LipFrames {
     Eigen::MatrixXd points;                 // [48 x frames], mm, head frame
     std::optional<MarkedPoints> rest = {};  // where the source tells it: the talker's own
     std::vector<int> incomplete = {};       // per motion: samples left out because a lip point is missing
+                                            // or confidence in it
 };
 
-// InputError("motion", ...) when no sample holds all sixteen.
-LipFrames frames_of(const Motion& motion);
+// Without the samples whose column "confidence", if there is one, lies below the least.
+// InputError("motion", ...) when no sample is left that holds all sixteen.
+LipFrames frames_of(const Motion& motion, double least_confidence = 0);
 
 // All of the files' frames one after the other. InputError for what cannot be read, and for files of both
 // kinds together: measured points and a talker's are not one person's.
-LipFrames read_lip_frames(const std::vector<std::filesystem::path>& motions, const Talker& talker);
+LipFrames read_lip_frames(const std::vector<std::filesystem::path>& motions, const Talker& talker,
+                          double least_confidence = 0);
 
 // The talker's recitations as the codex holds them, at five samples per second.
 LipFrames recited_lip_frames(const Talker& talker);

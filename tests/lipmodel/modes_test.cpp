@@ -116,5 +116,17 @@ TEST(LipModes, RefuseFramesThatAreNone) {
     EXPECT_THROW(learn_lips(body, test::resting_mouth()), std::runtime_error);  // nothing moves
 }
 
+TEST(Modes, FramesLikeAModelTeachItAgain) {
+    const LipModel& model = test::learned().model;
+    const LipModel again =
+        learn_lips(test::learned().body, frames_like(model), {.modes = 48, .noise_mm = model.noise_mm});
+    ASSERT_EQ(again.modes.cols(), model.modes.cols());
+    EXPECT_LT((again.mean - model.mean).norm(), 1e-6);
+    for (Eigen::Index i = 0; i < model.modes.cols(); ++i) {
+        EXPECT_NEAR(again.variance[i], model.variance[i], 0.01 * model.variance[i]);
+        EXPECT_GT(std::abs(again.modes.col(i).dot(model.modes.col(i))), 0.999);
+    }
+}
+
 }  // namespace
 }  // namespace viaface

@@ -49,6 +49,42 @@ TEST_F(LipFramesOf, ATakeRestWhereTheTalkerRests) {
     EXPECT_LT((marked_of(as_column(model.rest)) - rest).norm(), 1e-6);
 }
 
+TEST_F(LipFramesOf, TrainingGoesOnFromAModel) {
+    write_whole(scratch("take.csv"), take(120));
+    const LipFrames frames = read_lip_frames({scratch("take.csv")}, momo());
+    const LipModel first = learn_from(frames, {.modes = 10, .noise_mm = 0.01}, {"take.csv"});
+    // Another way to move: the lower lip's middle alone, 5 mm of standard deviation.
+    LipFrames more;
+    more.points = resting_lips(frames).replicate(1, 120);
+    for (int i = 0; i < 120; ++i) more.points(3 * 4 + 1, i) += 5 * std::sqrt(2) * std::sin(0.4 * i);
+    const LipModel second = learn_on(first, more, {.modes = 10, .noise_mm = 0.01}, {"more.csv"});
+    EXPECT_GT(second.modes.cols(), first.modes.cols());
+    EXPECT_EQ(second.provenance, "learned from take.csv; then learned from more.csv");
+    const auto left_by = [&](const LipModel& model) {
+        double sum = 0;
+        for (const auto& lips : {frames.points, more.points}) {
+            for (Eigen::Index i = 0; i < lips.cols(); i += 10) {
+                const LipBody body = lip_body(marked_of(as_column(model.rest)));
+                const Eigen::VectorXd shape =
+                    as_column(body.mesh.nodes) +
+                    body.spread * (lips.col(i) - marked_of(as_column(body.mesh.nodes)));
+                sum += (lip_shape(model, lip_modes_of(model, shape)) - shape).norm();
+            }
+        }
+        return sum;
+    };
+    EXPECT_LT(left_by(second), 0.1 * left_by(first));
+}
+
+TEST_F(LipFramesOf, SamplesOfLittleConfidenceAreLeftOut) {
+    Motion motion{{}, RowMatrix::Zero(4, kCoordinates), {{"confidence", {0.95, 0.5, std::nan(""), 0.9}}}};
+    motion.time_s = {0, 0.1, 0.2, 0.3};
+    EXPECT_EQ(frames_of(motion, 0.9).points.cols(), 2);
+    EXPECT_EQ(frames_of(motion, 0.9).incomplete, std::vector<int>{2});
+    EXPECT_EQ(frames_of(motion, 0.4).points.cols(), 3);
+    EXPECT_THROW(frames_of(motion, 0.99), InputError);
+}
+
 TEST_F(LipFramesOf, MeasuredPointsLeaveOutIncompleteSamples) {
     write_whole(scratch("take.csv"), take(60));
     const LipFrames whole = read_lip_frames({scratch("take.csv")}, momo());
