@@ -16,6 +16,21 @@
 namespace viaface {
 namespace {
 
+constexpr const char* kScansHelp =
+    "A folder of scans may hold scans.json; all of its fields may be left out:\n"
+    "  \"postures\": {\"neutral\": \"face.ply\", \"a\": \"a.ply\", \"jawOpen\": \"open.ply\", ...}\n"
+    "      files by name; the built-in talkers' postures (a, i, u, e, o, m_pressed, f, ...) and named "
+    "shapes\n"
+    "      (jawOpen, eyeBlink_L, ...) take their places, others are added\n"
+    "  \"units\": \"m\", \"cm\", \"mm\", \"inch\" or millimetres to the unit\n"
+    "  \"axes\": {\"up\": \"+y\", \"forward\": \"-z\"}\n"
+    "  \"mirrored\": true\n"
+    "  \"colour\": \"face.png\"\n"
+    "  \"landmarks\": {\"nose\": [x, y, z], ...}\n"
+    "  \"cylinder\": {\"step\": 0.1, \"angle_from_deg\": 0, \"angle_to_deg\": 360, \"bottom\": 0, \"top\": "
+    "300}\n"
+    "      of a range map (.pgm)";
+
 int list_talkers() {
     const TalkerShelf shelf(talkers_folder());
     for (const auto& name : shelf.names()) {
@@ -58,6 +73,7 @@ Command add_talker(CLI::App& program) {
         "make",
         "Makes a talker: of a scan, with a built-in talker's motion, or, from a blend-shape head, a "
         "built-in talker again with its performed recitations.");
+    options->make->footer(kScansHelp);
     options->make->add_option("folder,--scans", options->scans, "folder of scans, or of the blend-shape head")
         ->capture_default_str();
     options->make->add_option("-o,--output", options->output,

@@ -297,7 +297,7 @@ ScanFolder read_scan_folder(const fs::path& folder) {
             scans.postures.emplace(posture, std::move(surface));
         }
     } catch (const json::exception& error) {
-        refuse("scans.json", error.what(), "the fields that scan_folder.hpp names");
+        refuse("scans.json", error.what(), "the fields that viaface talker make --help tells");
     }
     if (!scans.postures.at("neutral").painted())
         scans.remarks.push_back("the scan has no colours: the generic skin is painted");
