@@ -1,5 +1,6 @@
 // How well a colour fits lips, skin and the opening between the lips: mixtures of Gaussians in RGB, three for
-// the lips and one for the skin, by expectation maximisation (OpenCV's). [Basu98, section 5.1] Departures:
+// the lips and two for the skin, by expectation maximisation (OpenCV's). [Basu98, section 5.1] Departures:
+// the paper has one for the skin, too few for a face half in shadow;
 // the paper has no class for the opening; ours has two components, where there are samples of it. And the
 // paper sums logarithms of densities, which grows by covering fewer pixels; ours are relative to the class
 // that fits the pixel best, so that a pixel that fits counts nothing, and neither does one that fits no class
@@ -57,7 +58,7 @@ class ColourMixture {
 // component.
 ColourMixture learn_mixture(std::span<const Rgb> samples, int components);
 
-inline constexpr int kLipComponents = 3, kSkinComponents = 1, kOpeningComponents = 2;
+inline constexpr int kLipComponents = 3, kSkinComponents = 2, kOpeningComponents = 2;
 inline constexpr std::size_t kLeastSamples = 10;  // a component
 
 struct ColourClasses {

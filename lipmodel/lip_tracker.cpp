@@ -108,7 +108,7 @@ std::vector<Rgb> thinned(const std::vector<Rgb>& samples) {
 
 ColourClasses classes_of(const std::vector<Rgb>& lips, const std::vector<Rgb>& skin,
                          const std::vector<Rgb>& opening) {
-    if (lips.size() < kLeastSamples * kLipComponents || skin.size() < kLeastSamples)
+    if (lips.size() < kLeastSamples * kLipComponents || skin.size() < kLeastSamples * kSkinComponents)
         throw InputError("video", "no lips that can be told from the skin", "a mouth in colour, in focus");
     return learn_classes(thinned(lips), thinned(skin), thinned(opening));
 }
