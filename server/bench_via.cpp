@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <cstdio>
+#include <functional>
 #include <future>
 
+#include "base/error.hpp"
 #include "synth/stream/baselines.hpp"
 #include "synth/stream/bench_motions.hpp"
 #include "synth/talker/stream_models.hpp"
@@ -14,11 +16,14 @@
 namespace viaface {
 namespace {
 
+constexpr double kBaselineShare = 0.4;  // of the bound, that a baseline's components may leave
+
 struct Row {
     std::string name;
     double bound_mm = 0;
     StreamAccount stream;
     BaselineBits dct, xz;
+    std::string not_reached;  // why, when the bound was not
 };
 
 double per_second(double bits, const Row& row) { return bits / row.stream.seconds; }
@@ -27,15 +32,23 @@ void tell(const std::string& motion, double bound_mm, const char* step) {
     std::fprintf(stderr, "%s, %g mm: %s\n", motion.c_str(), bound_mm, step);
 }
 
+// The very motion's, in the baselines' favour.
+ConfigurationBasis baseline_basis(const RowMatrix& positions, double bound_mm) {
+    constexpr Eigen::Index kFewest = 10;
+    ConfigurationBasis basis = principal_basis(positions, kCoordinates);
+    Eigen::Index modes = std::min(kFewest, basis.size());
+    const auto leading = [&] { return ConfigurationBasis{basis.mean, basis.modes.leftCols(modes)}; };
+    while (modes < basis.size() && truncation_error_mm(leading(), positions) > kBaselineShare * bound_mm)
+        ++modes;
+    return leading();
+}
+
 Row measured(const BenchMotion& motion, const Motion& training, const StreamModel* model, double bound_mm) {
     tell(motion.name, bound_mm, "searching its via points");
-    Row row{motion.name,
-            bound_mm,
-            encode_stream(motion.motion, model, {.max_error_mm = bound_mm}).account,
-            {},
-            {}};
+    Row row{motion.name, bound_mm, encode_stream(motion.motion, model, {.max_error_mm = bound_mm}).account,
+            {},          {},       {}};
     tell(motion.name, bound_mm, "searching the baselines");
-    const ConfigurationBasis own = principal_basis(motion.motion.positions, 10);  // in the baselines' favour
+    const ConfigurationBasis own = baseline_basis(motion.motion.positions, bound_mm);
     row.dct = dct_bits(motion.motion, training, own, bound_mm);
     row.xz = delta_xz_bits(motion.motion, own, bound_mm);
     return row;
@@ -49,6 +62,11 @@ void print_heading() {
 }
 
 void print(const Row& row) {
+    if (!row.not_reached.empty()) {
+        std::printf("%-16s %6.2f not reached: %s\n", row.name.c_str(), row.bound_mm, row.not_reached.c_str());
+        std::fflush(stdout);
+        return;
+    }
     const double payload = per_second(8.0 * static_cast<double>(row.stream.payload_bytes), row),
                  dct = per_second(row.dct.bits, row);
     std::printf("%-16s %6.2f %9.1f %9.1f %7.3f %7.3f | %9.1f %7.3f %7.2f | %9.1f\n", row.name.c_str(),
@@ -77,6 +95,16 @@ Row phrase_row(const BenchMotion& take, const BenchMotion& other, const RowMatri
 
 using RowToCome = std::packaged_task<Row()>;
 
+RowToCome row_to_come(const BenchMotion& motion, double bound_mm, std::function<Row()> row) {
+    return RowToCome([&motion, bound_mm, row = std::move(row)] {
+        try {
+            return row();
+        } catch (const InputError& error) {
+            return Row{motion.name, bound_mm, {}, {}, {}, error.what()};
+        }
+    });
+}
+
 // Two rows at a time; each is printed when it and all before it are there.
 void print_rows(std::vector<RowToCome>& rows) {
     std::vector<std::future<Row>> measured;
@@ -99,8 +127,9 @@ int run(const std::string& name, const std::filesystem::path& data, bool full) {
         "apart, the talker named. Basis and statistics are the\n"
         "talker's and not counted: for each phrase take they come from the other one and the talker's named "
         "shapes, for the rest from stream.bin. DCT and xz: payload\n"
-        "alone, with the ten leading components of the very motion, searched to the same largest error; the "
-        "DCT's contexts are primed on the other take, else on the very motion.\n");
+        "alone, with the ten leading components of the very motion or as many as leave 0.4 of the bound, "
+        "searched to the same largest error; the DCT's contexts are primed on the other take, else on the "
+        "very motion.\n");
     for (const BenchMotion& motion : motions.phrase_takes) describe(motion);
     for (const BenchMotion& motion : motions.others) describe(motion);
     print_heading();
@@ -112,11 +141,14 @@ int run(const std::string& name, const std::filesystem::path& data, bool full) {
     std::vector<RowToCome> rows;
     for (const double bound : bounds) {
         for (std::size_t i = 0; i < takes.size(); ++i)
-            rows.emplace_back([&, i, bound] { return phrase_row(takes[i], takes[1 - i], shapes, bound); });
+            rows.push_back(row_to_come(takes[i], bound, [&, i, bound] {
+                return phrase_row(takes[i], takes[1 - i], shapes, bound);
+            }));
         if (!full && !takes.empty()) continue;
         for (const BenchMotion& motion : motions.others)
-            rows.emplace_back(
-                [&, bound] { return measured(motion, motion.motion, model ? &*model : nullptr, bound); });
+            rows.push_back(row_to_come(motion, bound, [&, bound] {
+                return measured(motion, motion.motion, model ? &*model : nullptr, bound);
+            }));
     }
     print_rows(rows);
     return 0;

@@ -6,6 +6,23 @@
 
 namespace viaface {
 
+bool send_whole(httplib::DataSink& client, const std::atomic<bool>& stopping,
+                const std::function<std::string(const std::function<void()>&)>& make) {
+    try {
+        const std::string made = make([&] {
+            if (stopping || !client.is_writable()) throw ClientLeft();
+        });
+        if (!client.write(made.data(), made.size())) return false;
+        client.done();
+        return true;
+    } catch (const ClientLeft&) {
+        return false;
+    } catch (const std::exception& error) {
+        log_failure(error);
+        return false;
+    }
+}
+
 bool stream_film(const FilmSpec& spec, httplib::DataSink& client, const std::atomic<bool>& stopping,
                  const std::function<void(FilmWriter&)>& perform) {
     try {

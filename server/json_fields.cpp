@@ -1,11 +1,14 @@
 #include "server/json_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 
 namespace viaface {
 namespace {
+
+constexpr double kLargestExact = 9007199254740992;  // 2^53: beyond, a double does not tell which
 
 std::string shown(const nlohmann::json& value) {
     return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -67,8 +70,11 @@ std::optional<bool> JsonFields::flag(const std::string& name) {
 std::optional<std::uint64_t> JsonFields::whole_number(const std::string& name) {
     const auto* value = find(name);
     if (value == nullptr) return std::nullopt;
-    if (!value->is_number_unsigned()) refuse(name, "a whole number from 0");
-    return value->get<std::uint64_t>();
+    if (value->is_number_unsigned()) return value->get<std::uint64_t>();
+    const double number = value->is_number_float() ? value->get<double>() : -1;  // 7.0 and 7e0 are whole
+    if (!(number >= 0 && number <= kLargestExact && number == std::floor(number)))
+        refuse(name, "a whole number from 0");
+    return static_cast<std::uint64_t>(number);
 }
 
 std::optional<nlohmann::json> JsonFields::object(const std::string& name) {

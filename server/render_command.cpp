@@ -74,7 +74,8 @@ RenderReport from_file(RenderOptions& options, const Talker& talker) {
         for (const std::string& line : moving.report) std::fprintf(stderr, "%s\n", line.c_str());
     }
     if (request.keep_head && moving.head.empty())
-        throw InputError("--keep-head", "no head motion taken out", "with --head-markers");
+        throw InputError("--keep-head", "no head motion at hand",
+                         "with --head-markers, or for a Live Link Face recording whose head turns");
     const Sound sound = sound_of(options.audio);
     request.from_s = start_of(options, moving.motion);
     if (!std::isnan(options.to)) request.to_s = options.to;
@@ -139,8 +140,10 @@ Command add_render(CLI::App& program) {
         "s of the motion's clock at which the film begins; 0 with sound, else the first sample's");
     app->add_option("--to", options->to,
                     "s of the motion's clock at which it ends; when motion and sound have ended");
-    app->add_flag("--keep-head", options->request.keep_head,
-                  "turn the head in the view as it was turned in the recording (with --head-markers)");
+    app->add_flag(
+        "--keep-head", options->request.keep_head,
+        "turn the head in the view as it was turned in the recording (with --head-markers, or as a Live "
+        "Link Face recording tells)");
     app->add_option("--talker", options->talker,
                     "a built-in talker's name, or a talker's folder (with a / in it)")
         ->capture_default_str();

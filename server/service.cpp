@@ -201,21 +201,32 @@ class Service::Routes {
         });
         post("/v1/viapoints", [this](const auto& request, auto& response, const auto& reader) {
             const bool as_stream = accepted_type(request) == kViaType;
-            VideoRequest asked = viapoints_request_of(json_body(request, reader));
-            const auto talker = shelf_.load(asked.talker);
-            settle_voice(asked, *talker);
-            const Script script(asked.say.speech);
-            const auto place = admission_.reserve();
-            if (!place->wait_for_turn([this] { return !stopping_; }))
-                throw HttpError(503, "Service Unavailable", "the service stops");
-            if (as_stream) {
-                const auto model = std::ranges::find(models_, talker->name(), &StreamModel::name);
-                const Bytes stream =
-                    spoken_stream(script, *talker, model == models_.end() ? nullptr : &*model);
-                response.set_content(reinterpret_cast<const char*>(stream.data()), stream.size(), kViaType);
-                return;
-            }
-            answer(response, viapoints_json(script, asked.say.speech, *talker));
+            auto job = std::make_shared<VideoJob>();
+            job->request = viapoints_request_of(json_body(request, reader));
+            job->talker = shelf_.load(job->request.talker);
+            settle_voice(job->request, *job->talker);
+            const Script checked(job->request.say.speech);
+            job->place = admission_.reserve();
+            response.status = 200;
+            response.set_chunked_content_provider(
+                as_stream ? kViaType : kJsonType,
+                [this, job, as_stream](std::size_t, httplib::DataSink& client) {
+                    return send_points(*job, as_stream, client);
+                });
+        });
+    }
+
+    // False cuts the connection.
+    bool send_points(const VideoJob& job, bool as_stream, httplib::DataSink& client) {
+        if (!job.place->wait_for_turn([&] { return !stopping_ && client.is_writable(); })) return false;
+        return send_whole(client, stopping_, [&](const std::function<void()>& check_wanted) {
+            const Script script(job.request.say.speech);
+            if (!as_stream)
+                return viapoints_json(script, job.request.say.speech, *job.talker, check_wanted).dump();
+            const auto model = std::ranges::find(models_, job.talker->name(), &StreamModel::name);
+            const Bytes stream =
+                spoken_stream(script, *job.talker, model == models_.end() ? nullptr : &*model, check_wanted);
+            return std::string(stream.begin(), stream.end());
         });
     }
 

@@ -10,12 +10,14 @@ constexpr double kSampledRate = 100;  // Hz
 
 }  // namespace
 
-Bytes spoken_stream(const Script& script, const Talker& talker, const StreamModel* model) {
+Bytes spoken_stream(const Script& script, const Talker& talker, const StreamModel* model,
+                    const std::function<void()>& check_wanted) {
     Motion motion;
     std::vector<Configuration> rows;
     std::vector<StreamPhone> phones;
     std::int64_t samples = 0;
     for (std::size_t sentence = 0; sentence < script.size(); ++sentence) {
+        check_wanted();
         const Recital recital = recite(talker.codex, script.utterance(sentence));
         const int rate = recital.utterance.sound.sample_rate;
         const double begin = static_cast<double>(samples) / rate;
@@ -35,7 +37,10 @@ Bytes spoken_stream(const Script& script, const Talker& talker, const StreamMode
     motion.positions.resize(static_cast<Eigen::Index>(rows.size()), kCoordinates);
     for (std::size_t i = 0; i < rows.size(); ++i)
         motion.positions.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
-    return encode_stream(motion, model, {.max_error_mm = kAnsweredBound, .rounds = 1}, phones).bytes;
+    return encode_stream(motion, model,
+                         {.max_error_mm = kAnsweredBound, .rounds = 1, .before_segment = check_wanted},
+                         phones)
+        .bytes;
 }
 
 std::string talker_of(const Bytes& stream) {

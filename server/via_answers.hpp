@@ -10,8 +10,9 @@ namespace viaface {
 inline constexpr double kAnsweredBound = 1;  // mm, of a stream that answers
 
 // What the face would pass, with its phones, by the talker's stream model or, where it has none, with a basis
-// of its own.
-Bytes spoken_stream(const Script& script, const Talker& talker, const StreamModel* model);
+// of its own. What `check_wanted`, called now and then, throws ends it.
+Bytes spoken_stream(const Script& script, const Talker& talker, const StreamModel* model,
+                    const std::function<void()>& check_wanted);
 
 // Who draws a stream when nobody is asked for: the talker that it names, else the default one.
 // InputError("stream", ...) for bytes that are none.

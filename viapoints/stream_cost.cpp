@@ -8,10 +8,11 @@ namespace {
 
 constexpr double kNoSuchGap = 1000;  // bits
 
-double difference_bits(const ValueContexts& contexts, int row, std::size_t active, std::size_t side, int v) {
-    double bits = bits_of(contexts.any[static_cast<std::size_t>(row)][active].one, v != 0);
+double difference_bits(const ValueContexts& contexts, int row, std::size_t active,
+                       const Prediction& predicted, int v) {
+    double bits = bits_of(contexts.any[static_cast<std::size_t>(row)][active][predicted.far()].one, v != 0);
     if (v == 0) return bits;
-    bits += bits_of(contexts.negative[row == kStartClass][side].one, v < 0);
+    bits += bits_of(contexts.negative[row == kStartClass][predicted.side()].one, v < 0);
     const auto& more = contexts.more_of(row, active);
     const int size = std::abs(v);
     for (int n = 1; n <= std::min(size, kUnaryLimit); ++n)
@@ -34,10 +35,10 @@ StreamCost::StreamCost(const StreamStatistics& statistics) : statistics_(statist
             before_[static_cast<std::size_t>(row * n + j)] = *w++;
             for (int k = 0; k < j; ++k) now_[static_cast<std::size_t>((row * n + k) * n + j)] = *w++;
             for (std::size_t a = 0; a < 3; ++a)
-                for (std::size_t s = 0; s < 3; ++s)
+                for (int lean = 0; lean < kLeans; ++lean)
                     for (int v = -kFurthest; v <= kFurthest; ++v)
-                        difference_.push_back(static_cast<float>(
-                            difference_bits(statistics.value[static_cast<std::size_t>(j)], row, a, s, v)));
+                        difference_.push_back(static_cast<float>(difference_bits(
+                            statistics.value[static_cast<std::size_t>(j)], row, a, {0, lean}, v)));
         }
     }
     for (std::size_t c = 0; c < kGapContexts; ++c) {
@@ -57,7 +58,7 @@ double StreamCost::gap(int context, int ticks) const {
 }
 
 double StreamCost::values(int row, const PredictionSums& sums, const ViaValues& values) const {
-    constexpr int kSide = 2 * kFurthest + 1, kActive = 3 * kSide, kRow = 3 * kActive;
+    constexpr int kSide = 2 * kFurthest + 1, kActive = kLeans * kSide, kRow = 3 * kActive;
     double bits = 0;
     int active = 0;
     const float* table = difference_.data() + row * kRow;
@@ -65,7 +66,7 @@ double StreamCost::values(int row, const PredictionSums& sums, const ViaValues& 
         const Prediction predicted = rounded_prediction(sums[k]);
         const std::int32_t rest = values[k] - predicted.nearest;
         const std::int32_t v = std::clamp(rest, -kFurthest, kFurthest);
-        bits += static_cast<double>(table[active * kActive + predicted.side * kSide + v + kFurthest]) +
+        bits += static_cast<double>(table[active * kActive + predicted.lean * kSide + v + kFurthest]) +
                 0.2 * std::abs(rest - v);
         if (rest != 0 && active < 2) ++active;
     }

@@ -32,7 +32,7 @@ class StreamCost {
     const StreamStatistics& statistics_;
     std::vector<std::int64_t> now_, last_;  // [kRowClasses][k, told][components, predicted]
     std::vector<std::int64_t> before_;      // [kRowClasses][components]
-    std::vector<float> difference_;         // [components][kRowClasses][3 active][3 side][2 kFurthest + 1]
+    std::vector<float> difference_;         // [components][kRowClasses][3 active][kLeans][2 kFurthest + 1]
     std::vector<double> gap_;               // [kGapContexts][kMostGapTicks + 1]
 };
 

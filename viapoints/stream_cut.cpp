@@ -9,6 +9,7 @@
 namespace viaface {
 namespace {
 
+constexpr double kStill = 3;      // bounds per second that count as none
 constexpr double kOnTick = 1e-6;  // ticks that rounding of times may be off
 
 // Of the fastest point, mm/s.
@@ -20,7 +21,8 @@ double speed_at(const Motion& motion, const std::vector<int>& points, std::size_
     return longest_triple(step) / (motion.time_s[b] - motion.time_s[a]);
 }
 
-// The tick in [from, to] nearest to the sample, from `sample` on, that moves least.
+// The tick in [from, to] nearest to the sample, from `sample` on, that moves least, or the last that is
+// still.
 std::uint32_t stillest(const Motion& motion, const StreamHead& head, std::size_t sample, std::uint32_t from,
                        std::uint32_t to) {
     double least = std::numeric_limits<double>::infinity();
@@ -30,8 +32,8 @@ std::uint32_t stillest(const Motion& motion, const StreamHead& head, std::size_t
         if (tick > to) break;
         if (tick < from) continue;
         const double speed = speed_at(motion, head.points, i);
-        if (speed >= least) continue;
-        least = speed;
+        if (speed > std::max(least, kStill * head.bound_mm)) continue;
+        least = std::min(least, speed);
         best = static_cast<std::uint32_t>(tick);
     }
     return best;

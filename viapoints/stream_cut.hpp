@@ -18,7 +18,8 @@ inline double tick_of(const StreamHead& head, double time_s) {
 }
 
 // From `first_tick`, which sample `first_sample` is the first not to lie before, to the tick of the last
-// fifth before `last_tick` where the points move least; to `last_tick` itself where `whole`.
+// fifth before `last_tick` where the points move least, or the last one where they are still; to `last_tick`
+// itself where `whole`.
 CutSegment cut_at(const Motion& motion, const StreamHead& head, std::size_t first_sample,
                   std::uint32_t first_tick, std::uint32_t last_tick, bool whole);
 

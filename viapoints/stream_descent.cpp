@@ -63,10 +63,7 @@ double StreamDescent::gap_bits(std::size_t n) const {
     if (n == 0 || tick_[n] == tick_[n - 1]) return 0;
     const bool still = n > 1 && values_[n - 1] == values_[n - 2];
     const int before = n > 1 ? tick_[n - 1] - tick_[n - 2] : 0;
-    return problem_->cost.gap(still        ? kGapContexts - 1
-                              : before > 0 ? gap_class(before)
-                                           : 1,
-                              tick_[n] - tick_[n - 1]);
+    return problem_->cost.gap(gap_context(before > 0 ? before : kFirstGap, still), tick_[n] - tick_[n - 1]);
 }
 
 // What row n costs now; its sums anew, unless they have followed its change.

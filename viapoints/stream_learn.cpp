@@ -14,7 +14,7 @@ using Eigen::Index;
 constexpr double kTowardsAll = 6;     // as many via points as speak for the weights of all gaps together
 constexpr double kTowardsPlain = 10;  // and for predicting the last value
 constexpr double kTowardsParent = 4, kTowardsPrior = 4, kRarely = 0.03;
-constexpr std::uint8_t kTrust = 30;  // sightings with which a learned probability starts
+constexpr std::uint8_t kTrust = 20;  // sightings with which a learned probability starts
 
 struct Counts {
     double all = 0, ones = 0;
@@ -111,13 +111,15 @@ void settle(const CountsOf& counts, const std::array<AdaptiveBit*, kContexts>& b
 }
 
 void settle_value(const CountsOf& counts, ValueContexts& value) {
-    std::array<AdaptiveBit*, kRowClasses * ValueContexts::kActivities> any{};
-    for (std::size_t i = 0; i < any.size(); ++i)
-        any[i] = &value.any[i / ValueContexts::kActivities][i % ValueContexts::kActivities];
+    std::array<AdaptiveBit*, kRowClasses * ValueContexts::kActivities * 3> any{};
+    std::size_t n = 0;
+    for (auto& row : value.any)
+        for (auto& active : row)
+            for (AdaptiveBit& bit : active) any[n++] = &bit;
     settle(counts, any, kRarely);
     for (auto& sides : value.negative)
         for (AdaptiveBit& side : sides) settle<1>(counts, {&side}, 0.5);
-    for (std::size_t n = 0; n < kUnaryLimit; ++n)
+    for (n = 0; n < kUnaryLimit; ++n)
         settle<4>(counts, {&value.more[0][n], &value.more[1][n], &value.more[2][n], &value.more_still[n]},
                   0.5);
 }
@@ -129,11 +131,11 @@ void learn_probabilities(const std::vector<QuantisedSegment>& segments, StreamSt
     for (const QuantisedSegment& segment : segments) code_segment(coder, segment);
     StreamStatistics& known = coder.known();
     for (ValueContexts& value : known.value) settle_value(counts, value);
-    for (std::size_t n = 0; n < kMostGapTicks; ++n)
-        settle<4>(counts,
-                  {&known.gap.longer[0][n], &known.gap.longer[1][n], &known.gap.longer[2][n],
-                   &known.gap.longer[3][n]},
-                  0.7);
+    for (std::size_t n = 0; n < kMostGapTicks; ++n) {
+        std::array<AdaptiveBit*, kGapContexts> longer{};
+        for (std::size_t c = 0; c < kGapContexts; ++c) longer[c] = &known.gap.longer[c][n];
+        settle(counts, longer, 0.7);
+    }
     settle<1>(counts, {&known.beyond}, 0.5);
     statistics = std::move(known);
 }

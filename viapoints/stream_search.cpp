@@ -60,7 +60,8 @@ class TimeSearch {
     };
 
     bool worth(std::size_t j, Attempt attempt);
-    bool took(std::vector<int> ticks, std::vector<ViaValues> values, std::size_t j);
+    bool took(std::vector<int> ticks, std::vector<ViaValues> values, std::size_t j, bool fit_anew = true);
+    bool took_without(std::size_t j);
 
     const SearchProblem& problem_;
     StreamDescent& search_;
@@ -78,8 +79,9 @@ bool TimeSearch::worth(std::size_t j, Attempt attempt) {
     return changed;
 }
 
-// Other via times around via point j, settled there; taken when they cost less.
-bool TimeSearch::took(std::vector<int> ticks, std::vector<ViaValues> values, std::size_t j) {
+// Other via times around via point j, settled there from values fitted anew or as they are; taken when they
+// cost less.
+bool TimeSearch::took(std::vector<int> ticks, std::vector<ViaValues> values, std::size_t j, bool fit_anew) {
     const SearchWindow w = window_around(ticks, j, problem_.first_fixed);
     const SearchProblem part = part_of(problem_, ticks, w);
     const auto cut = [&](const auto& rows) {
@@ -90,7 +92,7 @@ bool TimeSearch::took(std::vector<int> ticks, std::vector<ViaValues> values, std
     std::vector<int> own_ticks = cut(ticks);
     std::vector<ViaValues> own_values = cut(values);
     if (part.tick.empty()) return false;
-    fit_between(part, own_ticks, own_values, begin, end);
+    if (fit_anew) fit_between(part, own_ticks, own_values, begin, end);
     StreamDescent other(part, std::move(own_ticks), std::move(own_values));
     const std::size_t touched = std::min(w.end + 2, ticks.size()), behind = ticks.size() - touched;
     const double most = search_.bits(w.begin, search_.ticks().size() - behind) - kLeastWon;
@@ -109,15 +111,21 @@ bool TimeSearch::took(std::vector<int> ticks, std::vector<ViaValues> values, std
     return true;
 }
 
+// Via point j taken out where that costs less.
+bool TimeSearch::took_without(std::size_t j) {
+    std::vector<int> ticks = search_.ticks();
+    std::vector<ViaValues> values = search_.values();
+    if (ticks[j + 1] - ticks[j - 1] > kMostGapTicks) return false;
+    const bool still = values[j - 1] == values[j] && values[j] == values[j + 1];
+    ticks.erase(ticks.begin() + static_cast<std::ptrdiff_t>(j));
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(j));
+    return took(std::move(ticks), std::move(values), j, !still);
+}
+
 // Each via point but those of the ends: taken out where that costs less.
 void TimeSearch::thin_out() {
     for (std::size_t j = inner_begin(search_.ticks()); j < inner_end(search_.ticks());) {
-        std::vector<int> ticks = search_.ticks();
-        std::vector<ViaValues> values = search_.values();
-        ticks.erase(ticks.begin() + static_cast<std::ptrdiff_t>(j));
-        values.erase(values.begin() + static_cast<std::ptrdiff_t>(j));
-        const bool allowed = ticks[j] - ticks[j - 1] <= kMostGapTicks && worth(j, kThinning);
-        if (!allowed || !took(std::move(ticks), std::move(values), j)) ++j;
+        if (!worth(j, kThinning) || !took_without(j)) ++j;
     }
 }
 

@@ -13,10 +13,12 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFirstRate = 7.5;    // via points per second that a search starts from
+constexpr double kFirstRate = 15;     // via points per second that a search starts from
 constexpr double kSearchedRate = 60;  // samples per second that a search looks at first
 constexpr double kRestingSpeed = 30;  // bounds per second: what moves slower at an end may rest there
-constexpr int kMostNarrower = 3;      // times that the bound is drawn in for samples in between
+constexpr int kFinerBits = 3;
+constexpr std::uint16_t kFinerAtAll = 2048, kEndMoves = 16384, kEndsEarly = 8192;  // of 65536
+constexpr int kMostNarrower = 3;  // times that the bound is drawn in for samples in between
 
 Eigen::MatrixXd packed_modes(const StreamTools& tools) {
     return coordinates_of(tools.basis.modes.transpose(), tools.head.points).transpose();
@@ -45,18 +47,39 @@ bool divisible(const ViaValues& values, int by) {
     return std::all_of(values.begin(), values.end(), [by](std::int32_t v) { return v % by == 0; });
 }
 
+// What a packet tells before its via points.
+struct Front {
+    int finer = 0;
+    bool first_moves = false, last_moves = false;
+    std::uint32_t length = 1;  // ticks
+};
+
+template <class Coder>
+Front code_front(Coder& coder, Front front, std::uint32_t longest) {
+    AdaptiveBit finer{kFinerAtAll}, first{kEndMoves}, last{kEndMoves}, early{kEndsEarly};
+    if (coder.bit(finer, front.finer != 0))
+        front.finer =
+            1 + static_cast<int>(coder.even(static_cast<std::uint32_t>(front.finer - 1), kFinerBits));
+    front.first_moves = coder.bit(first, front.first_moves);
+    front.last_moves = coder.bit(last, front.last_moves);
+    const std::uint32_t fifth = longest / 5, left = longest - front.length;
+    if (coder.bit(early, left > fifth))
+        front.length = coder.even(front.length, std::bit_width(longest));
+    else
+        front.length = longest - coder.even(left, std::bit_width(fifth));
+    return front;
+}
+
 }  // namespace
 
 double step_of(const StreamHead& head, int finer) { return std::ldexp(head.step_mm, -finer); }
 
-int length_bits(std::uint32_t longest_segment) { return static_cast<int>(std::bit_width(longest_segment)); }
-
 Bytes segment_content(const StreamTools& tools, const SegmentVia& segment) {
     RangeEncoder encoder;
-    encoder.even(static_cast<std::uint32_t>(segment.finer), kFinerBits);
-    encoder.even(moves_first(segment.via.tick), 1);
-    encoder.even(moves_last(segment.via.tick), 1);
-    encoder.even(static_cast<std::uint32_t>(segment.via.length()), length_bits(tools.head.longest_segment));
+    code_front(encoder,
+               {segment.finer, moves_first(segment.via.tick), moves_last(segment.via.tick),
+                static_cast<std::uint32_t>(segment.via.length())},
+               tools.head.longest_segment);
     ViaCoder<RangeEncoder> coder(encoder, tools.statistics);
     code_segment(coder, segment.via);
     return encoder.finish();
@@ -65,11 +88,12 @@ Bytes segment_content(const StreamTools& tools, const SegmentVia& segment) {
 SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> content) {
     RangeDecoder decoder(content);
     SegmentVia segment;
-    segment.finer = static_cast<int>(decoder.even(0, kFinerBits));
-    const std::size_t at_first = decoder.even(0, 1) != 0 ? 3 : 1, at_last = decoder.even(0, 1) != 0 ? 3 : 1;
-    const auto length = static_cast<int>(decoder.even(0, length_bits(tools.head.longest_segment)));
-    if (length < 1 || length > static_cast<int>(tools.head.longest_segment))
-        throw std::runtime_error("a segment of " + std::to_string(length) + " ticks");
+    const Front front = code_front(decoder, {}, tools.head.longest_segment);
+    segment.finer = front.finer;
+    const std::size_t at_first = front.first_moves ? 3 : 1, at_last = front.last_moves ? 3 : 1;
+    if (front.length < 1 || front.length > tools.head.longest_segment)
+        throw std::runtime_error("a segment of " + std::to_string(front.length) + " ticks");
+    const auto length = static_cast<int>(front.length);
     ViaCoder<RangeDecoder> coder(decoder, tools.statistics);
     QuantisedSegment& via = segment.via;
     const ViaValues zeros(static_cast<std::size_t>(tools.basis.size()));

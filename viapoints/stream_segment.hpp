@@ -6,7 +6,7 @@
 
 namespace viaface {
 
-inline constexpr int kMostFiner = 7;
+inline constexpr int kMostFiner = 8;
 
 // A segment with its own step: the stream's, halved `finer` times.
 struct SegmentVia {
@@ -19,10 +19,6 @@ double step_of(const StreamHead& head, int finer);
 Bytes segment_content(const StreamTools& tools, const SegmentVia& segment);
 // std::runtime_error for content that is none.
 SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> content);
-
-// The bits that a packet tells before its via points: finer, and the length.
-inline constexpr int kFinerBits = 3;
-int length_bits(std::uint32_t longest_segment);
 
 // Segment after segment of a motion, in order: each begins with what the one before ended with.
 class SegmentEncoder {

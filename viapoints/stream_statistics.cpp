@@ -14,6 +14,8 @@ constexpr std::uint8_t kRarelySeen = 20;
 
 int gap_class(int gap_ticks) { return gap_ticks <= 4 ? 0 : gap_ticks <= 8 ? 1 : 2; }
 
+int gap_context(int before, bool still) { return std::min(before, 4) - 1 + (still ? 4 : 0); }
+
 std::size_t StreamStatistics::weights_at(int j, int row) const {
     const auto k = static_cast<std::size_t>(components), n = static_cast<std::size_t>(j);
     const std::size_t before = kRowClasses * (n * (2 + k) + n * (n - 1) / 2);
@@ -63,7 +65,8 @@ StreamStatistics with_components(const StreamStatistics& statistics, const std::
     for (int j = 0; j < components; ++j) {
         ValueContexts& value = other.value[static_cast<std::size_t>(j)];
         if (j >= common) {
-            for (auto& row : value.any) row.fill({kRarely, kRarelySeen});
+            for (auto& row : value.any)
+                for (auto& active : row) active.fill({kRarely, kRarelySeen});
             continue;
         }
         const int mode = known[static_cast<std::size_t>(j)];

@@ -18,17 +18,21 @@
 
 namespace viaface {
 
-inline constexpr int kRowClasses = 5;   // 0 to 2 by the gap before
-inline constexpr int kStartClass = 3;   // the first row of a segment
-inline constexpr int kStillClass = 4;   // two rows before that are the same
-inline constexpr int kGapContexts = 4;  // 0 to 2 by the gap before; 3: the rows before are the same
+inline constexpr int kRowClasses = 5;  // 0 to 2 by the gap before
+inline constexpr int kStartClass = 3;  // the first row of a segment
+inline constexpr int kStillClass = 4;  // two rows before that are the same
+inline constexpr int kGapContexts =
+    8;  // by the gap before: 1, 2, 3 or more ticks; 4 to 7 after rows that are the same
 inline constexpr int kMostGapTicks = 64;
+inline constexpr int kFirstGap = 2;  // that the first one of a segment is taken to follow
 inline constexpr int kUnaryLimit = 14;
 inline constexpr std::int32_t kLargestValue = 1 << 15;  // of a quantised component, either way
 
 using ViaValues = std::vector<std::int32_t>;  // one quantised component each, in steps
 
 int gap_class(int gap_ticks);
+// Of a gap; `before` is the gap told before it.
+int gap_context(int before, bool still);
 
 // The via points that are known when one is told.
 struct ViaPast {
@@ -46,9 +50,15 @@ inline int row_class(const ViaPast& past, int gap_ticks) {
     return past.start ? kStartClass : past.still ? kStillClass : gap_class(gap_ticks);
 }
 
+inline constexpr int kLeans = 5;
+
 struct Prediction {
     std::int32_t nearest = 0;
-    int side = 0;  // 0: the nearest is about right, 1: a little more is likely, 2: a little less
+    int lean =
+        0;  // 0: the nearest is about right; more is likely: 1 a little, 2 much; less: 3 a little, 4 much
+
+    std::size_t side() const { return lean == 0 ? 0 : lean < 3 ? 1 : 2; }
+    std::size_t far() const { return lean == 0 ? 0 : lean % 2 == 1 ? 1 : 2; }
 };
 
 inline constexpr int kWeightBits = 12;
@@ -60,13 +70,15 @@ inline Prediction rounded_prediction(std::int64_t sum) {
     sum = std::clamp(sum, -kMost, kMost);
     const std::int64_t nearest = (sum + kWeightOne / 2) >> kWeightBits;
     const std::int64_t off = sum - nearest * kWeightOne;
-    return {static_cast<std::int32_t>(nearest), off > kWeightOne / 6 ? 1 : off < -kWeightOne / 6 ? 2 : 0};
+    const std::int64_t far = off < 0 ? -off : off;
+    const int lean = far > kWeightOne / 3 ? 2 : far > kWeightOne / 6 ? 1 : 0;
+    return {static_cast<std::int32_t>(nearest), lean > 0 && off < 0 ? lean + 2 : lean};
 }
 
 struct ValueContexts {
     static constexpr int kActivities = 3;
-    std::array<std::array<AdaptiveBit, kActivities>, kRowClasses> any;
-    std::array<std::array<AdaptiveBit, 3>, 2> negative;
+    std::array<std::array<std::array<AdaptiveBit, 3>, kActivities>, kRowClasses> any;  // by far()
+    std::array<std::array<AdaptiveBit, 3>, 2> negative;                                // by side()
     std::array<std::array<AdaptiveBit, kUnaryLimit>, kActivities> more;
     std::array<AdaptiveBit, kUnaryLimit> more_still;
 
@@ -104,7 +116,7 @@ void for_each_bit(StreamStatistics& statistics, const auto& visit) {
             for (AdaptiveBit& bit : row) visit(bit);
     };
     for (ValueContexts& contexts : statistics.value) {
-        all(contexts.any);
+        for (auto& row : contexts.any) all(row);
         all(contexts.negative);
         all(contexts.more);
         for (AdaptiveBit& bit : contexts.more_still) visit(bit);
@@ -135,11 +147,11 @@ class ViaCoder {
 
     // 1 to at_most; at_most at least 1
     int gap(int ticks, int at_most, bool still) {
-        auto& contexts = known_.gap.longer[static_cast<std::size_t>(still ? kGapContexts - 1 : last_class_)];
+        auto& contexts = known_.gap.longer[static_cast<std::size_t>(gap_context(last_gap_, still))];
         int coded = 1;
         while (coded < at_most && coder_.bit(contexts[static_cast<std::size_t>(coded - 1)], ticks > coded))
             ++coded;
-        last_class_ = gap_class(coded);
+        last_gap_ = coded;
         return coded;
     }
 
@@ -151,7 +163,7 @@ class ViaCoder {
             const Prediction predicted = known_.predict(j, row, past, values);
             const auto at = static_cast<std::size_t>(j);
             const std::int32_t rest = difference(values[at] - predicted.nearest, known_.value[at], row,
-                                                 active < 2 ? active : 2, predicted.side);
+                                                 active < 2 ? active : 2, predicted);
             values[at] = predicted.nearest + rest;
             active += rest != 0;
         }
@@ -160,11 +172,12 @@ class ViaCoder {
     StreamStatistics& known() { return known_; }  // its contexts are those that the coder is given
 
   private:
-    std::int32_t difference(std::int32_t wanted, ValueContexts& contexts, int row, int active, int side) {
+    std::int32_t difference(std::int32_t wanted, ValueContexts& contexts, int row, int active,
+                            const Prediction& predicted) {
         const auto a = static_cast<std::size_t>(active);
-        if (!coder_.bit(contexts.any[static_cast<std::size_t>(row)][a], wanted != 0)) return 0;
-        const bool negative =
-            coder_.bit(contexts.negative[row == kStartClass][static_cast<std::size_t>(side)], wanted < 0);
+        auto& any = contexts.any[static_cast<std::size_t>(row)][a];
+        if (!coder_.bit(any[predicted.far()], wanted != 0)) return 0;
+        const bool negative = coder_.bit(contexts.negative[row == kStartClass][predicted.side()], wanted < 0);
         const std::int32_t size = negative ? -wanted : wanted;
         auto& more = contexts.more_of(row, a);
         std::int32_t coded = 1;
@@ -184,7 +197,7 @@ class ViaCoder {
 
     Coder& coder_;
     StreamStatistics known_;
-    int last_class_ = 1;
+    int last_gap_ = kFirstGap;
 };
 
 }  // namespace viaface

@@ -21,10 +21,10 @@ void read_via_header(ByteReader& reader, std::span<const std::uint8_t> bytes, Vi
     const auto version = reader.get<std::uint16_t>(), found = reader.get<std::uint16_t>();
     if (crc32(bytes.first(reader.offset())) != reader.get<std::uint32_t>())
         refuse("the header's checksum does not fit (byte 12)");
-    if (version != kViaVersion)
-        refuse("version " + std::to_string(version) + ", known is " + std::to_string(kViaVersion));
     if (found != static_cast<std::uint16_t>(kind))
         refuse("kind " + std::to_string(found) + ", wanted " + std::to_string(static_cast<int>(kind)));
+    if (version != via_version(kind))
+        refuse("version " + std::to_string(version) + ", known is " + std::to_string(via_version(kind)));
 }
 
 ViaChunk read_via_chunk(ByteReader& reader, std::span<const std::uint8_t> bytes) {
@@ -49,7 +49,7 @@ ViaChunk read_via_chunk(ByteReader& reader, std::span<const std::uint8_t> bytes)
 
 ViaChunkWriter::ViaChunkWriter(ViaKind kind) {
     writer_.put_bytes(kMagic);
-    writer_.put(kViaVersion);
+    writer_.put(via_version(kind));
     writer_.put(static_cast<std::uint16_t>(kind));
     writer_.put(crc32(writer_.bytes()));
 }

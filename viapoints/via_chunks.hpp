@@ -8,7 +8,6 @@
 
 namespace viaface {
 
-inline constexpr std::uint16_t kViaVersion = 1;
 inline constexpr std::uint32_t kLongestViaChunk = 1u << 28;
 
 enum class ViaKind : std::uint16_t { kCodex = 1, kStream = 2, kStreamModel = 3 };
@@ -18,6 +17,9 @@ struct ViaChunk {
     std::span<const std::uint8_t> content;
     std::size_t offset = 0;  // of the content in those bytes
 };
+
+// Of what FORMAT.md says about a kind.
+inline constexpr std::uint16_t via_version(ViaKind kind) { return kind == ViaKind::kCodex ? 1 : 2; }
 
 inline bool is_optional(const ViaChunk& chunk) { return chunk.type[0] >= 'a'; }
 

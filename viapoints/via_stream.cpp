@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "viapoints/measured.hpp"
@@ -18,6 +19,7 @@ constexpr int kTicksPerSecond = 30;
 constexpr int kMostTicksPerSecond = 240;
 constexpr double kStepPerBound = 5;   // where no statistics say otherwise
 constexpr double kBasisShare = 0.35;  // of the bound, that the basis may leave
+constexpr double kBitsOfMode = 0.7;   // per second, about
 constexpr std::size_t kMostSamples = 10'000'000;
 
 // A bound as a float, and not above it.
@@ -53,6 +55,25 @@ std::uint32_t longest_segment(const StreamOptions& options, int ticks_per_s) {
     return static_cast<std::uint32_t>(std::max(1.0, std::floor(options.sync_s * ticks_per_s + 1e-9)));
 }
 
+// In modes of the model alone, or in those of its table and blends of the others: whichever costs less.
+StreamTools cheapest_tools(const StreamModel& model, const Motion& motion, const std::vector<int>& points,
+                           double max_error_mm) {
+    const double share = kBasisShare * stored_bound(max_error_mm);
+    StreamTools alone =
+        shared_tools(model, points, max_error_mm, needed_modes(model.basis, points, motion.positions, share));
+    std::vector<int> known(
+        static_cast<std::size_t>(model.tables[static_cast<std::size_t>(alone.head.table)].components));
+    std::iota(known.begin(), known.end(), 0);
+    StreamTools blended = shared_tools(model, points, max_error_mm, known,
+                                       needed_blends(model.basis, known, points, motion.positions, share));
+    const double seconds = motion.time_s.back() - motion.time_s.front();
+    const auto bits = [&](const StreamTools& tools) {
+        return 8 * static_cast<double>(write_stream_head(tools).size()) +
+               kBitsOfMode * seconds * static_cast<double>(tools.basis.size());
+    };
+    return bits(blended) < bits(alone) ? blended : alone;
+}
+
 StreamTools tools_for(const Motion& motion, const StreamModel* model, const StreamOptions& options,
                       int ticks_per_s) {
     StreamTools tools;
@@ -63,9 +84,7 @@ StreamTools tools_for(const Motion& motion, const StreamModel* model, const Stre
     head.longest_segment = longest_segment(options, ticks_per_s);
     head.bound_mm = stored_bound(options.max_error_mm);
     if (model) {
-        tools = shared_tools(
-            *model, head.points, options.max_error_mm,
-            needed_modes(model->basis, head.points, motion.positions, kBasisShare * head.bound_mm));
+        tools = cheapest_tools(*model, motion, head.points, options.max_error_mm);
         head.start_s = motion.time_s.front();
         head.ticks_per_s = ticks_per_s;
         head.longest_segment = longest_segment(options, ticks_per_s);
@@ -82,10 +101,13 @@ StreamTools tools_for(const Motion& motion, const StreamModel* model, const Stre
 }
 
 std::vector<SegmentVia> segments_of(const Motion& motion, const StreamTools& tools,
-                                    const std::vector<CutSegment>& cuts, int rounds) {
-    SegmentEncoder encoder(tools, rounds);
+                                    const std::vector<CutSegment>& cuts, const StreamOptions& options) {
+    SegmentEncoder encoder(tools, options.rounds);
     std::vector<SegmentVia> segments;
-    for (const CutSegment& cut : cuts) segments.push_back(encoder.encode(motion, cut));
+    for (const CutSegment& cut : cuts) {
+        options.before_segment();
+        segments.push_back(encoder.encode(motion, cut));
+    }
     return segments;
 }
 
@@ -164,7 +186,7 @@ EncodedStream written(const Motion& motion, const StreamTools& tools, const std:
 }  // namespace
 
 StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm,
-                         std::vector<int> modes) {
+                         std::vector<int> modes, BlendWeights blends) {
     const std::vector<int> held = points_of(model.basis);
     for (const int p : points) {
         if (!std::binary_search(held.begin(), held.end(), p))
@@ -180,13 +202,13 @@ StreamTools shared_tools(const StreamModel& model, std::vector<int> points, doub
     head.model_identity = model.identity();
     head.table = static_cast<int>(table);
     head.shared_modes = std::move(modes);
+    head.blends = std::move(blends);
     head.points = std::move(points);
     head.bound_mm = stored_bound(max_error_mm);
     head.step_mm =
         static_cast<double>(static_cast<float>(statistics.step_mm / statistics.bound_mm * max_error_mm));
-    tools.basis = {model.basis.mean, model.basis.modes(Eigen::all, head.shared_modes)};
-    tools.statistics =
-        with_components(statistics, head.shared_modes, static_cast<int>(head.shared_modes.size()));
+    tools.basis = shared_basis(model, head);
+    tools.statistics = with_components(statistics, head.shared_modes, static_cast<int>(tools.basis.size()));
     return tools;
 }
 
@@ -198,7 +220,7 @@ EncodedStream encode_stream(const Motion& motion, const StreamModel* model, cons
         const std::vector<CutSegment> cuts = cut_motion(motion, tools.head);
         std::vector<SegmentVia> segments;
         try {
-            segments = segments_of(motion, tools, cuts, options.rounds);
+            segments = segments_of(motion, tools, cuts, options);
         } catch (const InputError&) {
             if (ticks_per_s == kMostTicksPerSecond) throw;
             continue;

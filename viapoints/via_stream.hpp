@@ -12,6 +12,8 @@
 // bytes away.
 #pragma once
 
+#include <functional>
+
 #include "viapoints/phones.hpp"
 #include "viapoints/stream_packets.hpp"
 #include "viapoints/stream_search.hpp"
@@ -21,9 +23,10 @@
 namespace viaface {
 
 struct StreamOptions {
-    double max_error_mm = 1;  // 0.01 to 100
-    double sync_s = 10;       // 0.2 to 60: sync points are at most so far apart
-    int rounds = 2;           // of the search: more is slower and smaller
+    double max_error_mm = 1;                       // 0.01 to 100
+    double sync_s = 10;                            // 0.2 to 60: sync points are at most so far apart
+    int rounds = 2;                                // of the search: more is slower and smaller
+    std::function<void()> before_segment = [] {};  // what it throws ends the encoding
 };
 
 struct StreamPhone {
@@ -53,10 +56,10 @@ struct EncodedStream {
 EncodedStream encode_stream(const Motion& motion, const StreamModel* model, const StreamOptions& options = {},
                             const std::vector<StreamPhone>& phones = {});
 
-// A head, basis and statistics from a model, for motion of `points` under a bound, in `modes` of it (rising).
-// InputError("talker", ...) for a point that the model lacks.
+// A head, basis and statistics from a model, for motion of `points` under a bound, in `modes` of it (rising)
+// and blends of the others. InputError("talker", ...) for a point that the model lacks.
 StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm,
-                         std::vector<int> modes);
+                         std::vector<int> modes, BlendWeights blends = {});
 
 struct DecodedSegment {
     std::uint32_t first_tick = 0;

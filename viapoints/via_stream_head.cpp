@@ -11,12 +11,15 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::uint8_t kHasTalker = 1, kHasStart = 2, kHasModes = 4;
+constexpr std::uint8_t kHasTalker = 1, kHasStart = 2, kHasModes = 4, kHasBlends = 8;
 constexpr std::uint8_t kLayout = 1;  // LAYOUT.md with its 38 points
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("via stream, head: " + what); }
 
-Index shared_count(const StreamHead& head) { return static_cast<Index>(head.shared_modes.size()); }
+// Modes that are made of the model's.
+Index shared_count(const StreamHead& head) {
+    return static_cast<Index>(head.shared_modes.size()) + head.blends.cols();
+}
 
 // A bit for each mode up to the last one that is used.
 void put_mode_set(ByteWriter& writer, const std::vector<int>& modes) {
@@ -46,7 +49,8 @@ Bytes put_head(const StreamTools& tools) {
     ByteWriter writer;
     const bool modes = tools.basis.size() > shared_count(head);
     writer.put(static_cast<std::uint8_t>((head.talker.empty() ? 0 : kHasTalker) |
-                                         (head.start_s != 0 ? kHasStart : 0) | (modes ? kHasModes : 0)));
+                                         (head.start_s != 0 ? kHasStart : 0) | (modes ? kHasModes : 0) |
+                                         (head.blends.cols() > 0 ? kHasBlends : 0)));
     writer.put(kLayout);
     put_point_set(writer, head.points);
     writer.put(static_cast<std::uint8_t>(head.ticks_per_s));
@@ -60,6 +64,7 @@ Bytes put_head(const StreamTools& tools) {
         writer.put(head.model_identity);
         writer.put(static_cast<std::uint8_t>(head.table));
         put_mode_set(writer, head.shared_modes);
+        if (head.blends.cols() > 0) put_blends(writer, head.blends, head.shared_modes);
     }
     return writer.bytes();
 }
@@ -73,7 +78,7 @@ TakenHead take_head(ByteReader& reader) {
     TakenHead taken;
     StreamHead& head = taken.head;
     const auto flags = reader.get<std::uint8_t>();
-    if (flags > (kHasTalker | kHasStart | kHasModes)) refuse("flags that are not known");
+    if (flags > (kHasTalker | kHasStart | kHasModes | kHasBlends)) refuse("flags that are not known");
     taken.modes = (flags & kHasModes) != 0;
     if (const auto layout = reader.get<std::uint8_t>(); layout != kLayout)
         refuse("layout " + std::to_string(layout) + ", known is 1");
@@ -94,6 +99,9 @@ TakenHead take_head(ByteReader& reader) {
         head.model_identity = reader.get<std::uint32_t>();
         head.table = reader.get<std::uint8_t>();
         head.shared_modes = take_mode_set(reader);
+        if (flags & kHasBlends) head.blends = take_blends(reader, head.shared_modes);
+    } else if (flags & kHasBlends) {
+        refuse("blends without a talker");
     }
     if (reader.left() > 0) refuse("bytes left over");
     return taken;
@@ -127,9 +135,11 @@ void share(StreamTools& tools, const StreamModel& model) {
                std::to_string(model.tables.size()));
     if (!head.shared_modes.empty() && head.shared_modes.back() >= model.basis.size())
         refuse("a mode that the model lacks");
-    tools.basis = {model.basis.mean, model.basis.modes(Eigen::all, head.shared_modes)};
+    if (head.blends.rows() > model.basis.size()) refuse("a blend of a mode that the model lacks");
+    if (shared_count(head) > kMostStreamComponents) refuse("more than 114 modes");
+    tools.basis = shared_basis(model, head);
     tools.statistics = with_components(model.tables[static_cast<std::size_t>(head.table)], head.shared_modes,
-                                       static_cast<int>(head.shared_modes.size()));
+                                       static_cast<int>(tools.basis.size()));
 }
 
 void append_modes(StreamTools& tools, ByteReader reader) {
@@ -142,6 +152,14 @@ void append_modes(StreamTools& tools, ByteReader reader) {
 }
 
 }  // namespace
+
+ConfigurationBasis shared_basis(const StreamModel& model, const StreamHead& head) {
+    ConfigurationBasis basis{model.basis.mean, Eigen::MatrixXd(kCoordinates, shared_count(head))};
+    basis.modes.leftCols(static_cast<Index>(head.shared_modes.size())) =
+        model.basis.modes(Eigen::all, head.shared_modes);
+    basis.modes.rightCols(head.blends.cols()) = blended_modes(model.basis, head.blends);
+    return basis;
+}
 
 Bytes write_stream_head(const StreamTools& tools) {
     ViaChunkWriter writer(ViaKind::kStream);

@@ -1,6 +1,7 @@
 // The head of a stream: what a receiver must know before the first packet (FORMAT.md, kind 2).
 #pragma once
 
+#include "viapoints/stream_blends.hpp"
 #include "viapoints/stream_model.hpp"
 
 namespace viaface {
@@ -10,6 +11,7 @@ struct StreamHead {
     std::uint32_t model_identity = 0;
     int table = 0;                  // of the talker's model; of a stream without one, unused
     std::vector<int> shared_modes;  // those of the talker's basis that are used, rising
+    BlendWeights blends;            // of its other modes
     double start_s = 0;             // the time of tick 0
     int ticks_per_s = 30;
     std::uint32_t longest_segment = 300;  // ticks
@@ -23,6 +25,9 @@ struct StreamTools {
     ConfigurationBasis basis;
     StreamStatistics statistics;
 };
+
+// The model's modes that a stream uses, then its blends.
+ConfigurationBasis shared_basis(const StreamModel& model, const StreamHead& head);
 
 Bytes write_stream_head(const StreamTools& tools);
 

@@ -9,6 +9,7 @@
 #include "synth/motion/facegood.hpp"
 #include "synth/motion/live_link.hpp"
 #include "synth/motion/npy.hpp"
+#include "synth/motion/recorded_head.hpp"
 #include "synth/motion/retarget.hpp"
 #include "viapoints/motion_c3d.hpp"
 #include "viapoints/motion_trc.hpp"
@@ -63,6 +64,8 @@ class Reading {
         say("blend shapes: %zu, at full scale", recording.names.size());
         if (!lacking.empty()) input_.report.push_back("the talker lacks " + joined(lacking));
         input_.motion = seen(moved.motion, "face");
+        input_.head = recorded_head(input_.motion);
+        if (!input_.head.empty()) say("head: turns up to %.1f degrees", widest_turn_degrees(input_.head));
         return finished();
     }
 

@@ -16,7 +16,6 @@ constexpr double kHertz[] = {0.11, 0.27, 0.62}, kHeights[] = {0.55, 0.30, 0.15};
 constexpr double kOfAxis[] = {1, 2.0 / 3, 0.5};
 constexpr double kRadians = std::numbers::pi / 180;
 
-const Vector3d kPivot(0, -25, -110);           // mm: where skull and neck turn
 constexpr double kSlope = 0.33, kFoot = -112;  // the foot of the neck: y + slope z = foot, mm
 constexpr double kNeck = 38;                   // mm above its foot: the head
 
@@ -68,8 +67,8 @@ void Neck::turn(Nodes& posed, const HeadTurn& turn) const {
     for (Eigen::Index i = 0; i < posed.rows(); ++i) {
         const float share = shares_[static_cast<std::size_t>(i)];
         if (share == 0) continue;
-        const Vector3d from = posed.row(i).transpose() - kPivot;
-        posed.row(i) = (kPivot + (share == 1 ? whole : rotation(share)) * from).transpose();
+        const Vector3d from = posed.row(i).transpose() - kNeckPivot;
+        posed.row(i) = (kNeckPivot + (share == 1 ? whole : rotation(share)) * from).transpose();
     }
 }
 

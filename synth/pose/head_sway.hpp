@@ -35,6 +35,8 @@ class HeadSway {
     std::array<std::array<Wave, kWaves>, 3> axes_;  // left, up, roll
 };
 
+inline const Eigen::Vector3d kNeckPivot(0, -25, -110);  // mm: where skull and neck turn
+
 // The neck lets the head turn while the shoulders stand still.
 class Neck {
   public:

@@ -113,13 +113,15 @@ json Timeline::phones() const {
     return phones;
 }
 
-json viapoints_json(const Script& script, const SpeechRequest& request, const Talker& talker) {
+json viapoints_json(const Script& script, const SpeechRequest& request, const Talker& talker,
+                    const std::function<void()>& check_wanted) {
     Timeline timeline;
     json points = json::array(), opening = json::array();
     std::array<int, 3> levels{};
     std::int64_t samples = 0;
     int rate = 0;
     for (std::size_t sentence = 0; sentence < script.size(); ++sentence) {
+        check_wanted();
         const Recital recital = recite(talker.codex, script.utterance(sentence));
         const std::int64_t first = samples;
         rate = recital.utterance.sound.sample_rate;

@@ -1,6 +1,7 @@
 // What was said, as JSON: the answer of /v1/viapoints and the report of `viaface say --json`.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,8 +9,10 @@
 
 namespace viaface {
 
-// Words, phones, via points and the lip opening of a script, without drawing it.
-nlohmann::json viapoints_json(const Script& script, const SpeechRequest& request, const Talker& talker);
+// Words, phones, via points and the lip opening of a script, without drawing it. What `check_wanted`, called
+// before each sentence, throws ends it.
+nlohmann::json viapoints_json(const Script& script, const SpeechRequest& request, const Talker& talker,
+                              const std::function<void()>& check_wanted);
 
 // Gathers words and phones of recitals as they come; times count from the first sample of all.
 class Timeline {

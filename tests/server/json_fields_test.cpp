@@ -34,6 +34,19 @@ TEST(JsonFields, ReadsEachTypeAndWhatIsAbsent) {
     EXPECT_EQ(refused([&] { fields.refuse_unknown(); }), "");
 }
 
+// JSON knows one kind of number.
+TEST(JsonFields, AWholeNumberMayBeWrittenAsAFraction) {
+    for (const auto& [text, whole] :
+         {std::pair("7.0", 7u), std::pair("7e0", 7u), std::pair("0.0", 0u), std::pair("12e2", 1200u)}) {
+        const json body = {{"seed", json::parse(text)}};
+        EXPECT_EQ(JsonFields(body, "").whole_number("seed"), whole) << text;
+    }
+    for (const char* text : {"7.5", "-7.0", "1e300", "1.8446744073709552e19"}) {
+        const json body = {{"seed", json::parse(text)}};
+        EXPECT_EQ(refused([&] { JsonFields(body, "").whole_number("seed"); }), "seed") << text;
+    }
+}
+
 TEST(JsonFields, WrongTypesAreRefusedByName) {
     const json values[] = {nullptr, true, -1, 0.5, "text", json::array(), json::object()};
     for (const json& value : values) {

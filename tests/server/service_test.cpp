@@ -296,6 +296,19 @@ TEST(Service, AClientThatLeavesStopsItsWork) {
     EXPECT_TRUE(becomes([&] { return served.get("/healthz")["running"] == 0; }));
 }
 
+// Minutes of speech, whose stream nobody waits for.
+TEST(Service, AClientThatLeavesStopsTheWorkOnItsViaPoints) {
+    const Served served;
+    std::string text;
+    while (text.size() < 15000) text += "This goes on and on, sentence after sentence, for quite some time. ";
+    auto client = served.client();
+    client.set_read_timeout(0, 300'000);  // us
+    EXPECT_FALSE(client.Post("/v1/viapoints", {{"Accept", kViaType}}, json{{"text", text}}.dump(),
+                             "application/json"));
+    client.stop();
+    EXPECT_TRUE(becomes([&] { return served.get("/healthz")["running"] == 0; }));
+}
+
 TEST(Service, AClientThatLeavesTheQueueFreesItsPlace) {
     const Served served;
     Leaving busy(served, SIZE_MAX);
