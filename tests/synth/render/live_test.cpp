@@ -23,7 +23,7 @@ TEST(Live, DrawsWhatAFileOfTheSameRowsDraws) {
     const Motion motion = opening_motion(40, 0.5);
     std::vector<Configuration> from_file, live;
     Reel reel, live_reel;
-    render(small(), {motion, {}, {}}, {}, momo(), reel,
+    render(small(), {.motion = motion, .head = {}, .report = {}}, {}, momo(), reel,
            [&](const DrawnFrame& frame) { from_file.push_back(frame.commanded); });
     std::istringstream in(format_motion_csv(motion));
     LiveCsv rows(in);

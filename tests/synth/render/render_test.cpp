@@ -26,7 +26,9 @@ std::vector<DrawnFrame> drawn(const RenderRequest& request, const MotionInput& m
     return frames;
 }
 
-MotionInput opening(double rate, double seconds) { return {opening_motion(rate, seconds), {}, {}}; }
+MotionInput opening(double rate, double seconds) {
+    return {.motion = opening_motion(rate, seconds), .head = {}, .report = {}};
+}
 
 double chin(const Configuration& c) { return point_of(c, kChin).y(); }
 
