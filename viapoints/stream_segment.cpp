@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFirstRate = 15;     // via points per second that a search starts from
 constexpr double kSearchedRate = 60;  // samples per second that a search looks at first
 constexpr double kRestingSpeed = 30;  // bounds per second: what moves slower at an end may rest there
 constexpr int kFinerBits = 3;
@@ -25,10 +24,10 @@ Eigen::MatrixXd packed_modes(const StreamTools& tools) {
 }
 
 // Even via times.
-std::vector<int> first_ticks(const StreamHead& head, const CutSegment& cut, bool first_moves,
-                             bool last_moves) {
+std::vector<int> first_ticks(const StreamHead& head, const CutSegment& cut, bool first_moves, bool last_moves,
+                             double rate) {
     const auto length = static_cast<int>(cut.last_tick - cut.first_tick);
-    const int gap = std::max(1, static_cast<int>(std::lround(head.ticks_per_s / kFirstRate)));
+    const int gap = std::max(1, static_cast<int>(std::lround(head.ticks_per_s / rate)));
     std::vector<int> ticks(first_moves ? 3 : 1);
     for (int tick = gap; tick < length; tick += gap) ticks.push_back(tick);
     ticks.insert(ticks.end(), last_moves ? 3 : 1, length);
@@ -135,7 +134,8 @@ ViaValues SegmentEncoder::first_values(int finer) const {
 SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const {
     SegmentVia found{{}, finer};
     SearchOptions options{tools_.head.bound_mm, step_of(tools_.head, finer), rounds_};
-    const std::vector<int> ticks = first_ticks(tools_.head, cut, ends.first_moves, ends.last_moves);
+    const std::vector<int> ticks =
+        first_ticks(tools_.head, cut, ends.first_moves, ends.last_moves, first_rate_);
     std::size_t stride = stride_of(motion, cut);
     for (int tries = 0;; ++tries) {
         const SegmentTarget target = target_of(motion, tools_.head, tools_.basis.mean, cut, stride);

@@ -20,10 +20,14 @@ Bytes segment_content(const StreamTools& tools, const SegmentVia& segment);
 // std::runtime_error for content that is none.
 SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> content);
 
+inline constexpr double kFirstRate = 15;  // via points per second that a search starts from
+inline constexpr double kLiveRate = 7.5;  // likewise where time counts more than bits
+
 // Segment after segment of a motion, in order: each begins with what the one before ended with.
 class SegmentEncoder {
   public:
-    SegmentEncoder(const StreamTools& tools, int rounds) : tools_(tools), rounds_(rounds) {}
+    SegmentEncoder(const StreamTools& tools, int rounds, double first_rate = kFirstRate)
+        : tools_(tools), rounds_(rounds), first_rate_(first_rate) {}
 
     // InputError("max_error_mm", ...) when the bound cannot be held on the grid of ticks.
     SegmentVia encode(const Motion& motion, const CutSegment& cut);
@@ -38,6 +42,7 @@ class SegmentEncoder {
 
     const StreamTools& tools_;
     int rounds_;
+    double first_rate_;
     bool started_ = false;
     SegmentVia last_;
 };
