@@ -179,6 +179,12 @@ class Service::Routes {
         return talkers;
     }
 
+    void settle_speaker(VideoJob& job) {
+        job.talker = shelf_.load(job.request.talker);
+        settle_voice(job.request, *job.talker);
+        const Script checked(job.request.say.speech);
+    }
+
     void add_posts() {
         post("/v1/videos", [this](const auto& request, auto& response, const auto& reader) {
             auto job = std::make_shared<VideoJob>();
@@ -189,9 +195,7 @@ class Service::Routes {
                 job->moving = streamed_motion(stream, *job->talker, models_);
             } else {
                 job->request = video_request_of(json_body(request, reader));
-                job->talker = shelf_.load(job->request.talker);
-                settle_voice(job->request, *job->talker);
-                const Script checked(job->request.say.speech);
+                settle_speaker(*job);
             }
             job->place = admission_.reserve();
             response.status = 200;
@@ -203,9 +207,7 @@ class Service::Routes {
             const bool as_stream = accepted_type(request) == kViaType;
             auto job = std::make_shared<VideoJob>();
             job->request = viapoints_request_of(json_body(request, reader));
-            job->talker = shelf_.load(job->request.talker);
-            settle_voice(job->request, *job->talker);
-            const Script checked(job->request.say.speech);
+            settle_speaker(*job);
             job->place = admission_.reserve();
             response.status = 200;
             response.set_chunked_content_provider(
