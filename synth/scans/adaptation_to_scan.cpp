@@ -27,12 +27,6 @@ std::string with_digits(double value, int digits) {
     return text;
 }
 
-void turn_round(ScanMesh& mesh) {
-    for (auto* triangles : {&mesh.triangles, &mesh.uv_triangles}) {
-        for (Triangle& t : *triangles) std::swap(t[1], t[2]);
-    }
-}
-
 Similarity then(const Similarity& first, const Similarity& second) {
     return {second.scale * first.scale, second.turn * first.turn, second(first.shift)};
 }
@@ -248,6 +242,12 @@ double corner_rise(const GenericHead& generic, const Nodes& nodes) {
 }
 
 }  // namespace
+
+void turn_round(ScanMesh& mesh) {
+    for (auto* triangles : {&mesh.triangles, &mesh.uv_triangles}) {
+        for (Triangle& t : *triangles) std::swap(t[1], t[2]);
+    }
+}
 
 ScanFolder mirrored_back(ScanFolder scans) {
     if (!scans.mirrored) return scans;

@@ -41,6 +41,9 @@ struct AdaptedHead {
     double smile = 0;                    // mm: how far the lips' corners stand above their generic place
 };
 
+// Triangles that faced inwards face outwards.
+void turn_round(ScanMesh& mesh);
+
 // Left and right exchanged where `scans` says that they are: along the axis stated to be theirs, or any.
 ScanFolder mirrored_back(ScanFolder scans);
 

@@ -54,6 +54,11 @@ class Borrowing {
         transfer_.emplace(face_.rest, rest_, lender.surface, still_nodes());
         for (const OwnPosture& posture : own)
             own_.emplace(posture.name, on_rest(posture.nodes.rowwise() + shift_.transpose()));
+        for (const NamedShape& shape : face_.shapes) {
+            const auto own = own_.find(shape.name);
+            if (own != own_.end())
+                own_change_.emplace(shape.name, own->second - transferred(face_.rest + shape.delta));
+        }
     }
 
     BorrowedTalker talker(const Codex& codex, double size) const {
@@ -188,13 +193,11 @@ class Borrowing {
     // What scanned named shapes change in a mix of them.
     std::optional<Nodes> own_share(const ShapeWeights& mix) const {
         std::optional<Nodes> change;
-        for (const NamedShape& shape : face_.shapes) {
-            const auto own = own_.find(shape.name);
-            if (own == own_.end()) continue;
+        for (const auto& [shape, own] : own_change_) {
             for (const auto& [name, weight] : mix) {
-                if (shape.name != name && shape.name != name + "_L" && shape.name != name + "_R") continue;
+                if (shape != name && shape != name + "_L" && shape != name + "_R") continue;
                 if (!change) change = Nodes::Zero(rest_.rows(), 3);
-                *change += weight * (own->second - transferred(face_.rest + shape.delta));
+                *change += weight * own;
             }
         }
         return change;
@@ -322,7 +325,8 @@ class Borrowing {
     std::optional<DeformationTransfer> transfer_;
     std::vector<Seat> seats_;
     LinearEstimator jaw_and_tongue_;
-    std::map<std::string, Nodes> own_;  // scanned postures and named shapes, as on_rest gives them
+    std::map<std::string, Nodes> own_;         // scanned postures and named shapes, as on_rest gives them
+    std::map<std::string, Nodes> own_change_;  // of each scanned named shape, from the transferred one
 };
 
 }  // namespace

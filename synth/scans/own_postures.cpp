@@ -96,7 +96,7 @@ class Postures {
     std::optional<Nodes> fitted_to(ScanMesh mesh, std::string& remark) const {
         const bool seated = same_triangles(as_read_, mesh);
         mesh.nodes = head_.from_scan.carried(mesh.nodes);
-        if (as_read_.triangles != head_.scan.mesh.triangles && !seated) turn(mesh);
+        if (as_read_.triangles != head_.scan.mesh.triangles && !seated) turn_round(mesh);
         const Laid laid = seated ? laid_by_nodes(head_.scan.mesh.nodes, mesh.nodes)
                                  : laid_by_surface(generic_, head_.nodes, mesh);
         if (laid.off > kOtherHead) {
@@ -117,10 +117,6 @@ class Postures {
         int node;
         SurfacePlace on_neutral;
     };
-
-    static void turn(ScanMesh& mesh) {
-        for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    }
 
     Nodes carried_along(const ScanMesh& mesh) const {
         constexpr double kHeld = 1e4;  // mm^2: as good as fixed
