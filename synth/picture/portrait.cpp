@@ -49,6 +49,10 @@ std::vector<int> inner_contour(const Face& face) {
 
 class Portrait::Impl {
   public:
+    Impl(const CutFace& shown, const View& view, const Drawing& drawing) : Impl(shown.face, view, drawing) {
+        cut_ = shown.nodes;
+    }
+
     Impl(const Face& face, const View& view, const Drawing& drawing)
         : view_(view),
           painter_(make_painter(face, view, drawing)),
@@ -60,7 +64,7 @@ class Portrait::Impl {
           rgba_(std::size_t(4) * view.width * view.height) {}
 
     FrameView draw(const Nodes& posed, Redraw redraw) {
-        posed_.pose(posed);
+        cut_.empty() ? posed_.pose(posed) : posed_.pose(with_cut(posed, cut_));
         const Rect mouth = opening();
         const bool all = redraw == Redraw::kAll || !drawn_;
         const std::vector<Rect> rects = all ? std::vector{whole()} : changed(mouth);
@@ -133,6 +137,7 @@ class Portrait::Impl {
     static constexpr float kBarMargin = 0.25f;
 
     View view_;
+    std::vector<CutNode> cut_;  // nodes of the drawn face after those that are posed
     std::unique_ptr<Painter> painter_;
     PosedVertices posed_;
     ChangedBands bands_;

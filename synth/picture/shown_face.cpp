@@ -1,6 +1,7 @@
 #include "synth/picture/shown_face.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "synth/picture/layers.hpp"
 
@@ -8,8 +9,10 @@ namespace viaface {
 namespace {
 
 constexpr double kWithJaw = 0.45;   // of the way of what moves most
+constexpr double kJawHeight = 60;   // mm over which skin comes to go all the way
 constexpr double kRoundLips = 10;   // mm: skin that hides the mouth's lining from the side
 constexpr double kUnderChin = -20;  // mm, z: what lies behind belongs to the neck
+constexpr double kRound = 8;        // mm: how round corners of the cut are
 
 double mean_height(const Face& face, Material material) {
     double sum = 0, nodes = 0;
@@ -21,48 +24,50 @@ double mean_height(const Face& face, Material material) {
     return nodes > 0 ? sum / nodes : 0;
 }
 
-std::vector<bool> below_middle(const Face& face) {
+// How far below the middle between eyes and lips, mm.
+Eigen::VectorXd below_middle(const Face& face) {
     const double border = (mean_height(face, Material::kLips) + mean_height(face, Material::kEye)) / 2;
-    std::vector<bool> nodes(face.rest.rows());
-    for (Eigen::Index i = 0; i < face.rest.rows(); ++i) nodes[i] = face.rest(i, 1) < border;
-    return nodes;
+    return border - face.rest.col(1).array();
 }
 
-bool near_lips(const Face& face, Eigen::Index node) {
+double to_lips(const Face& face, Eigen::Index node) {
+    double least = 1e9;
     for (int column = 0; column < LipGrid::kColumns; ++column) {
         const auto border = face.rest.row(face.lips.node(0, column));
-        if ((face.rest.row(node) - border).norm() < kRoundLips) return true;
+        least = std::min(least, (face.rest.row(node) - border).norm());
     }
-    return false;
+    return least;
 }
 
-std::vector<bool> on_jaw(const Face& face) {
-    std::vector<bool> nodes(face.rest.rows(), false);
+// The larger of two distances, or more where they are alike.
+double either(double a, double b) { return (a + b + std::hypot(a - b, kRound)) / 2; }
+double both_of(double a, double b) { return -either(-a, -b); }
+
+// Of each node when the mouth opens, as part of what moves most.
+Eigen::VectorXd ways_with_jaw(const Face& face) {
     const auto opens = std::ranges::find(face.shapes, "jawOpen", &NamedShape::name);
-    if (opens == face.shapes.end()) return nodes;
+    if (opens == face.shapes.end()) return Eigen::VectorXd::Zero(face.rest.rows());
     const Eigen::VectorXd ways = opens->delta.rowwise().norm();
+    double most = 1e-9;
     for (const FacePart& part : face.parts) {
-        if (part.material != Material::kSkin || part.nodes == 0) continue;
-        const double most = ways.segment(part.first_node, part.nodes).maxCoeff();
-        for (int i = part.first_node; i < part.first_node + part.nodes; ++i)
-            nodes[i] = (ways[i] > kWithJaw * most && face.rest(i, 2) > kUnderChin) || near_lips(face, i);
+        if (part.material == Material::kSkin && part.nodes > 0)
+            most = std::max(most, ways.segment(part.first_node, part.nodes).maxCoeff());
     }
-    return nodes;
+    return ways / most;
 }
 
-template <class Stays>
-void keep_triangles(Face& face, const Stays& stays) {
-    for (FacePart& part : face.parts)
-        std::erase_if(part.triangles, [&](const Triangle& t) { return !stays(part.material, t); });
+// How far within the skin that goes with the jaw or lies round the lips, about mm.
+Eigen::VectorXd on_jaw(const Face& face) {
+    const Eigen::VectorXd ways = ways_with_jaw(face);
+    Eigen::VectorXd within(face.rest.rows());
+    for (Eigen::Index i = 0; i < within.size(); ++i) {
+        const double jaw = both_of(kJawHeight * (ways[i] - kWithJaw), face.rest(i, 2) - kUnderChin);
+        within[i] = either(jaw, kRoundLips - to_lips(face, i));
+    }
+    return within;
 }
 
-void keep(Face& face, Shown shown) {
-    const std::vector<bool> nodes = shown == Shown::kLips ? on_jaw(face) : below_middle(face);
-    keep_triangles(face, [&](Material material, const Triangle& t) {
-        if (material == Material::kLips || inside_mouth(material)) return true;
-        return material == Material::kSkin && std::ranges::all_of(t, [&](int node) { return nodes[node]; });
-    });
-}
+bool of_mouth(Material material) { return material == Material::kLips || inside_mouth(material); }
 
 // The lashes' texture is their shape.
 void take_textures(Face& face) {
@@ -77,10 +82,11 @@ bool shows_all(const View& view) {
     return view.texture && view.shown != Shown::kLowerFace && view.shown != Shown::kLips;
 }
 
-Face shown_face(const Face& face, const View& view) {
-    Face shown = face;
-    if (!view.texture) take_textures(shown);
-    if (view.shown == Shown::kLowerFace || view.shown == Shown::kLips) keep(shown, view.shown);
+CutFace shown_face(const Face& face, const View& view) {
+    CutFace shown = view.shown == Shown::kLowerFace ? cut_skin(face, below_middle(face), &of_mouth)
+                    : view.shown == Shown::kLips    ? cut_skin(face, on_jaw(face), &of_mouth)
+                                                    : CutFace{face, {}};
+    if (!view.texture) take_textures(shown.face);
     return shown;
 }
 

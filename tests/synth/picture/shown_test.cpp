@@ -123,7 +123,7 @@ double lowest_eye(const Face& face) {
 
 TEST(ShownFace, LipsAndLowerFaceHoldNothingOfTheEyes) {
     for (const Shown shown : {Shown::kLips, Shown::kLowerFace}) {
-        const Face part = shown_face(momo(), {.shown = shown});
+        const Face part = shown_face(momo(), {.shown = shown}).face;
         EXPECT_EQ(highest(part, Material::kEye), -1e9);
         EXPECT_EQ(highest(part, Material::kLash), -1e9);
         EXPECT_EQ(highest(part, Material::kCloth), -1e9);
@@ -131,8 +131,67 @@ TEST(ShownFace, LipsAndLowerFaceHoldNothingOfTheEyes) {
         EXPECT_GT(highest(part, Material::kSkin), -1e9);
         EXPECT_LT(highest(part, Material::kSkin), lowest_eye(momo()));
     }
-    const Face lips = shown_face(momo(), {.shown = Shown::kLips});
+    const Face lips = shown_face(momo(), {.shown = Shown::kLips}).face;
     EXPECT_LT(highest(lips, Material::kSkin), highest(momo(), Material::kLips) + 12);
+}
+
+double area(const Face& face, Material material) {
+    double sum = 0;
+    for (const FacePart& part : face.parts) {
+        if (part.material != material) continue;
+        for (const Triangle& t : part.triangles) {
+            const Vector3d a = face.rest.row(t[0]), b = face.rest.row(t[1]), c = face.rest.row(t[2]);
+            sum += (b - a).cross(c - a).norm() / 2;
+        }
+    }
+    return sum;
+}
+
+// Both sides of a cut are the whole again, and the nodes of a cut lie on it, in other postures on the edges
+// that were cut.
+TEST(CutFace, TakesAwayWhatLiesBeyondTheLevelAndNothingElse) {
+    const auto none = [](Material) { return false; };
+    const Eigen::VectorXd field = 3.1 - momo().rest.col(1).array() - 0.2 * momo().rest.col(0).array();
+    const CutFace below = cut_skin(momo(), field, none), above = cut_skin(momo(), -field, none);
+    EXPECT_NEAR(area(below.face, Material::kSkin) + area(above.face, Material::kSkin),
+                area(momo(), Material::kSkin), 1e-6 * area(momo(), Material::kSkin));
+    EXPECT_EQ(area(below.face, Material::kLips), 0);
+    ASSERT_GT(below.nodes.size(), 100u);
+    const auto shape = std::ranges::find(momo().shapes, "jawOpen", &NamedShape::name);
+    const Nodes posed = momo().rest + shape->delta, with = with_cut(posed, below.nodes);
+    for (std::size_t i = 0; i < below.nodes.size(); ++i) {
+        const Eigen::Index node = momo().rest.rows() + static_cast<Eigen::Index>(i);
+        const Vector3d at = below.face.rest.row(node), now = with.row(node);
+        EXPECT_NEAR(3.1 - at.y() - 0.2 * at.x(), 0, 1e-9);
+        const Vector3d from = posed.row(below.nodes[i].from), to = posed.row(below.nodes[i].to);
+        EXPECT_NEAR((now - from).norm() + (to - now).norm(), (to - from).norm(), 1e-9);
+    }
+    EXPECT_THROW(with_cut(momo().rest.topRows(9), below.nodes), std::invalid_argument);
+}
+
+// Seen from the front the lower face ends in one row of pixels, at its share of that row.
+TEST(Portrait, TheLowerFaceEndsInALevelSoftEdge) {
+    const Rgb green{0, 177, 64};
+    const View view{.width = 400,
+                    .height = 400,
+                    .background = green,
+                    .shown = Shown::kLowerFace,
+                    .orthographic = true,
+                    .px_per_mm = 2.27};
+    Portrait portrait(momo(), view);
+    const FrameView frame = portrait.draw(momo().rest);
+    const auto covered = [&](int x, int row) {  // about; skin's red is some 200
+        return red(frame, x, row) / 200.0;
+    };
+    int first_row = 0;
+    while (covered(200, first_row) < 0.05) ++first_row;
+    int between = 0;
+    for (int x = 120; x < 280; ++x) {
+        EXPECT_LT(covered(x, first_row - 1), 0.05) << x;
+        EXPECT_GT(covered(x, first_row + 1), 0.5) << x;
+        between += covered(x, first_row) > 0.1 && covered(x, first_row) < 0.9;
+    }
+    EXPECT_GT(between, 100);
 }
 
 // What a view leaves out is background.
@@ -157,7 +216,7 @@ TEST(Portrait, TheLipsViewShowsTheFaceInItsLowerPartAlone) {
 }
 
 TEST(Portrait, WithoutTextureAMaterialHasOneColour) {
-    const Face plain = shown_face(momo(), {.texture = false});
+    const Face plain = shown_face(momo(), {.texture = false}).face;
     for (int i = 0; i < kMaterials; ++i) {
         const bool shape = static_cast<Material>(i) == Material::kLash;
         EXPECT_EQ(plain.surfaces[i].base_colour.pixels.empty(), !shape);
