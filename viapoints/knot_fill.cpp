@@ -93,13 +93,14 @@ void KnotLine::fill() {
     while (true) {
         stretch_ = {};
         stretch_.samples = samples;
+        stretch_.ids.assign(samples.size(), kNone);
         stretch_.first_is_end = stretch_.last_is_end = true;
         for (const std::size_t sample : samples) stretch_.times.push_back(target_.time_s[sample]);
         stretch_.fit.controls = stretch_.fit.free_end = static_cast<int>(samples.size());
         find_rows();
         for (std::size_t s = 0; s < strands_.size(); ++s) {
-            fits_[s].within(strands_[s], measure_, stretch_.fit, {}, limit_mm2_, 1);
-            evaluations_ += stretch_.fit.rows.size();
+            hold(s);
+            fit(s, 1);
         }
         std::vector<std::size_t> more = split(samples);
         if (more.size() == samples.size()) break;

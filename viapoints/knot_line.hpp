@@ -50,6 +50,8 @@ class KnotLine {
         int left = 0, right = 0;
         bool first_is_end = false, last_is_end = false;
         FitStretch fit;
+        NormalMatrix even;  // where samples weigh the same
+        bool even_known = false;
     };
 
     Knot& knot(int id) { return knots_[static_cast<std::size_t>(id)]; }
@@ -69,11 +71,14 @@ class KnotLine {
     bool gaps_allowed(int left, int right) const;
     void find_rows();
     double strain(std::size_t strand) const;
+    void hold(std::size_t strand);
+    bool fit(std::size_t strand, int rounds);
     bool fits(Aim aim);
     bool replace(int left, int right, const std::vector<std::size_t>& between, Aim aim = Aim::kWithin);
     void relink(int left, int right, const std::vector<std::size_t>& between);
     void adopt();
     double importance(int id) const;
+    std::size_t thin(const std::vector<int>& ids);
     bool take_out(int id);
     bool spread_out(int id, int reach);
 
@@ -83,10 +88,10 @@ class KnotLine {
     std::vector<Strand> strands_;
     std::vector<std::size_t> order_;  // of strands: what last made a change fail is tried first
     std::vector<Knot> knots_;         // the first is the line's first; linked in order by before and after
-    std::vector<std::vector<Quad>> controls_;  // [strands][knots x quads]
+    std::vector<std::vector<double>> controls_;  // [strands][knots x width]
     Stretch stretch_;
-    std::vector<StrandFit> fits_;          // [strands]
-    std::vector<std::vector<Quad>> held_;  // [strands][knots of the stretch x quads]
+    std::vector<StrandFit> fits_;  // [strands]
+    FitBench bench_;
     std::size_t evaluations_ = 0;
 };
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
 namespace viaface {
 namespace {
+
+using Eigen::Index;
 
 constexpr double kLeastEmphasis = 1e-3;
 constexpr double kSingular = 1e-12;
@@ -12,87 +16,210 @@ constexpr double kHopeless_mm2 = 9;  // limits beyond which a strand of a basis 
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-struct FreePart {
-    int begin, end;  // of a row's weights
-    int first;       // the free control point of weight 0; may be negative
-};
+// Numbers that are worked on side by side: of a sample, or of a control point.
+using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 
-FreePart free_part(const QuinticRow& row, const FitStretch& stretch) {
-    const int first = row.first - stretch.free_begin;
-    return {std::max(0, -first), std::min(kSupport, stretch.free_end - row.first), first};
+template <class Number>
+Number load(const double* from) {
+    Number number;
+    std::memcpy(&number, from, sizeof number);
+    return number;
 }
 
-// Of the strand's components that are missed by `left`.
-double squared_distance(const PointMeasure& measure, std::size_t sample, const Quad* left, int quads) {
-    if (measure.modes.size() == 0) {
-        const Quad square = left->square();
-        return square[0] + square[1] + square[2];
+template <class Number>
+void store(double* to, const Number& number) {
+    std::memcpy(to, &number, sizeof number);
+}
+
+// A coordinate alone, or four numbers.
+template <int kWidth>
+struct Lane {
+    using Number = std::conditional_t<kWidth == 1, double, Pair>;
+    static constexpr int kNumbers = kWidth == 1 ? 1 : 2;
+    Number number[kNumbers];
+
+    static Lane zero() { return {}; }
+    static Lane at(const double* from) {
+        Lane lane;
+        for (int i = 0; i < kNumbers; ++i) lane.number[i] = load<Number>(from + i * kWidth / kNumbers);
+        return lane;
     }
-    const Eigen::Map<const Eigen::RowVectorXd> components(left->data(), 4 * quads);
-    const Eigen::RowVectorXd points =
-        measure.residual.row(static_cast<Eigen::Index>(sample)) + components * measure.modes;
-    double largest = 0;
-    for (Eigen::Index i = 0; i < points.size(); i += 3)
-        largest = std::max(largest, points.segment<3>(i).squaredNorm());
-    return largest;
+    void put(double* to) const {
+        for (int i = 0; i < kNumbers; ++i) store(to + i * kWidth / kNumbers, number[i]);
+    }
+    void add(double weight, const Lane& other) {
+        for (int i = 0; i < kNumbers; ++i) number[i] += weight * other.number[i];
+    }
+    void subtract(double weight, const Lane& other) {
+        for (int i = 0; i < kNumbers; ++i) number[i] -= weight * other.number[i];
+    }
+};
+
+// Calls with each run of rows that name the same control points: the first row and the one after the last.
+void for_each_run(const std::vector<QuinticRow>& rows, const auto& visit) {
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+        while (end < rows.size() && rows[end].first == rows[begin].first) ++end;
+        visit(begin, end);
+    }
+}
+
+double longest_squared(const double* points, Index coordinates) {
+    double longest = 0;
+    for (Index i = 0; i < coordinates; i += 3)
+        longest = std::max(
+            longest, points[i] * points[i] + points[i + 1] * points[i + 1] + points[i + 2] * points[i + 2]);
+    return longest;
+}
+
+// Adds the right sides of the normal equations, samples weighing `emphasis` or 1; kWidth of `width` numbers.
+template <int kWidth>
+void gather_right(const FitStretch& stretch, const double* emphasis, const double* value, int width,
+                  double* right) {
+    for_each_run(stretch.rows, [&](std::size_t begin, std::size_t end) {
+        Lane<kWidth> sum[kSupport] = {};
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto sample = Lane<kWidth>::at(value + i * at(width));
+            const double weight = emphasis ? emphasis[i] : 1;
+            for (int r = 0; r < kSupport; ++r) sum[r].add(weight * stretch.rows[i].weight[at(r)], sample);
+        }
+        for (int r = 0; r < kSupport; ++r) {
+            double* to = right + (stretch.rows[begin].first + r) * width;
+            auto all = Lane<kWidth>::at(to);
+            all.add(1, sum[r]);
+            all.put(to);
+        }
+    });
+}
+
+// Samples less the spline.
+template <int kWidth>
+void find_left(const FitStretch& stretch, const double* value, int width, const double* held, double* left) {
+    for_each_run(stretch.rows, [&](std::size_t begin, std::size_t end) {
+        Lane<kWidth> control[kSupport];
+        for (int r = 0; r < kSupport; ++r)
+            control[r] = Lane<kWidth>::at(held + (stretch.rows[begin].first + r) * width);
+        for (std::size_t i = begin; i < end; ++i) {
+            auto rest = Lane<kWidth>::at(value + i * at(width));
+            for (int r = 0; r < kSupport; ++r) rest.subtract(stretch.rows[i].weight[at(r)], control[r]);
+            rest.put(left + i * at(width));
+        }
+    });
 }
 
 }  // namespace
 
-// Cholesky without roots of a band of six, and the substitutions.
-template <int kQuads>
-void StrandFit::solve(const FitStretch& stretch, int quads) {
-    if (kQuads > 0) quads = kQuads;
-    const int n = stretch.free_end - stretch.free_begin;
-    band_.assign(at(n * kSupport), 0.0);
-    control.assign(at(n * quads), Quad::Zero());
-    for (std::size_t i = 0; i < stretch.rows.size(); ++i) {
-        const QuinticRow& row = stretch.rows[i];
-        const FreePart part = free_part(row, stretch);
-        for (int r = part.begin; r < part.end; ++r) {
-            const double weight = emphasis[i] * row.weight[at(r)];
-            double* band = &band_[at((part.first + r) * kSupport)];
-            for (int s = r; s < part.end; ++s) band[s - r] += weight * row.weight[at(s)];
-            for (int k = 0; k < quads; ++k)
-                control[at((part.first + r) * quads + k)] += weight * target_[i * at(quads) + at(k)];
-        }
+bool Strand::even(std::size_t first, std::size_t count) const {
+    return std::all_of(emphasis.begin() + static_cast<std::ptrdiff_t>(first),
+                       emphasis.begin() + static_cast<std::ptrdiff_t>(first + count),
+                       [](double weight) { return weight == 1; });
+}
+
+void FitStretch::find_products() {
+    products.resize(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        std::size_t p = 0;
+        for (std::size_t r = 0; r < kSupport; ++r)
+            for (std::size_t s = r; s < kSupport; ++s)
+                products[i][p++] = rows[i].weight[r] * rows[i].weight[s];
+        products[i][p] = 0;
     }
+}
+
+void NormalMatrix::factor(const FitStretch& stretch, std::span<const double> emphasis) {
+    band_.assign(at((stretch.controls + kSupport - 1) * kSupport), 0.0);
+    for_each_run(stretch.rows, [&](std::size_t begin, std::size_t end) {
+        Pair sum[kProducts / 2] = {};
+        for (std::size_t i = begin; i < end; ++i) {
+            const double weight = emphasis.empty() ? 1 : emphasis[i];
+            for (int p = 0; p < kProducts / 2; ++p)
+                sum[p] += weight * load<Pair>(&stretch.products[i][at(2 * p)]);
+        }
+        double* band = &band_[at(stretch.rows[begin].first * kSupport)];
+        for (int r = 0, p = 0; r < kSupport; ++r)
+            for (int s = r; s < kSupport; ++s, ++p) band[r * kSupport + s - r] += sum[p / 2][p % 2];
+    });
+    const int n = stretch.free_end - stretch.free_begin;
+    factor_.assign(&band_[at(stretch.free_begin * kSupport)], &band_[at(stretch.free_end * kSupport)]);
     for (int i = 0; i < n; ++i) {
-        double* row = &band_[at(i * kSupport)];
+        double* row = &factor_[at(i * kSupport)];
         row[0] = 1 / std::max(row[0], kSingular);
         for (int j = 1; j < std::min(kSupport, n - i); ++j) {
-            const double factor = row[j] * row[0];
-            double* below = &band_[at((i + j) * kSupport)];
-            for (int s = j; s < std::min(kSupport, n - i); ++s) below[s - j] -= factor * row[s];
-            for (int k = 0; k < quads; ++k)
-                control[at((i + j) * quads + k)] -= factor * control[at(i * quads + k)];
-        }
-    }
-    for (int i = n - 1; i >= 0; --i) {
-        const double* row = &band_[at(i * kSupport)];
-        for (int k = 0; k < quads; ++k) {
-            Quad value = control[at(i * quads + k)];
-            for (int j = 1; j < std::min(kSupport, n - i); ++j)
-                value -= row[j] * control[at((i + j) * quads + k)];
-            control[at(i * quads + k)] = value * row[0];
+            const double ratio = row[j] * row[0];
+            double* below = &factor_[at((i + j) * kSupport)];
+            for (int s = j; s < std::min(kSupport, n - i); ++s) below[s - j] -= ratio * row[s];
         }
     }
 }
 
-template <int kQuads>
-void StrandFit::measure_misses(const PointMeasure& measure, const FitStretch& stretch, int quads) {
-    if (kQuads > 0) quads = kQuads;
-    for (std::size_t i = 0; i < stretch.rows.size(); ++i) {
-        const QuinticRow& row = stretch.rows[i];
-        const FreePart part = free_part(row, stretch);
-        Quad* left = &left_[i * at(quads)];
-        for (int k = 0; k < quads; ++k) {
-            Quad value = target_[i * at(quads) + at(k)];
-            for (int r = part.begin; r < part.end; ++r)
-                value -= row.weight[at(r)] * control[at((part.first + r) * quads + k)];
-            left[k] = value;
+void NormalMatrix::move_held(const FitStretch& stretch, int width, const std::vector<double>& control,
+                             std::vector<double>& right) const {
+    const int begin = stretch.free_begin, end = stretch.free_end;
+    const auto subtract = [&](int from, double factor, int what) {
+        for (int k = 0; k < width; ++k) right[at(from * width + k)] -= factor * control[at(what * width + k)];
+    };
+    for (int i = std::max(0, begin - kSupport + 1); i < begin; ++i)
+        for (int j = begin - i; j < kSupport; ++j) subtract(i + j, band_[at(i * kSupport + j)], i);
+    for (int i = std::max(begin, end - kSupport + 1); i < end; ++i)
+        for (int j = end - i; j < std::min(kSupport, stretch.controls - i); ++j)
+            subtract(i, band_[at(i * kSupport + j)], i + j);
+}
+
+template <int kWidth>
+void NormalMatrix::solve(const FitStretch& stretch, int width, double* right, double* control) const {
+    const int begin = stretch.free_begin, n = stretch.free_end - begin;
+    for (int i = 0; i < n; ++i) {
+        const double* row = &factor_[at(i * kSupport)];
+        double* own = right + (begin + i) * width;
+        const auto value = Lane<kWidth>::at(own);
+        for (int j = 1; j < std::min(kSupport, n - i); ++j) {
+            auto other = Lane<kWidth>::at(own + j * width);
+            other.subtract(row[j] * row[0], value);
+            other.put(own + j * width);
         }
-        miss[i] = squared_distance(measure, stretch.first_sample + i, left, quads);
+    }
+    for (int i = n - 1; i >= 0; --i) {
+        const double* row = &factor_[at(i * kSupport)];
+        double* found = control + (begin + i) * width;
+        auto value = Lane<kWidth>::at(right + (begin + i) * width), scaled = Lane<kWidth>::zero();
+        for (int j = std::min(kSupport, n - i) - 1; j > 0;
+             --j)  // the one just found last: others need not wait
+            value.subtract(row[j], Lane<kWidth>::at(found + j * width));
+        scaled.add(row[0], value);
+        scaled.put(found);
+    }
+}
+
+void StrandFit::measure_misses(const PointMeasure& measure, const FitStretch& stretch, int width,
+                               FitBench& bench) {
+    const std::vector<double>& left = bench.left;
+    RowMatrix& points = bench.points;
+    const auto rows = static_cast<Index>(stretch.rows.size());
+    if (width == 1) {
+        for (std::size_t i = 0; i < miss.size(); ++i) miss[i] = left[i] * left[i];
+    } else if (measure.modes.size() == 0) {
+        for (std::size_t i = 0; i < miss.size(); ++i) miss[i] = longest_squared(&left[4 * i], 3);
+    } else {
+        points.noalias() = Eigen::Map<const RowMatrix>(left.data(), rows, width) * measure.modes;
+        points += measure.residual.middleRows(static_cast<Index>(stretch.first_sample), rows);
+        for (Index i = 0; i < rows; ++i)
+            miss[static_cast<std::size_t>(i)] = longest_squared(points.row(i).data(), points.cols());
+    }
+}
+
+template <int kWidth>
+void StrandFit::solve(const Strand& strand, const FitStretch& stretch, const NormalMatrix& matrix, bool even,
+                      FitBench& bench) {
+    const int width = strand.width;
+    const double* value = &strand.value[stretch.first_sample * at(width)];
+    bench.right.assign(at((stretch.controls + kSupport - 1) * width), 0.0);
+    bench.left.resize(stretch.rows.size() * at(width));
+    for (int k = 0; k < width; k += kWidth)
+        gather_right<kWidth>(stretch, even ? nullptr : emphasis.data(), value + k, width,
+                             bench.right.data() + k);
+    matrix.move_held(stretch, width, control, bench.right);
+    for (int k = 0; k < width; k += kWidth) {
+        matrix.solve<kWidth>(stretch, width, bench.right.data() + k, control.data() + k);
+        find_left<kWidth>(stretch, value + k, width, control.data() + k, bench.left.data() + k);
     }
 }
 
@@ -107,31 +234,23 @@ void StrandFit::emphasise(double largest) {
     for (double& weight : emphasis) weight *= scale;
 }
 
-template <int kQuads>
 bool StrandFit::within(const Strand& strand, const PointMeasure& measure, const FitStretch& stretch,
-                       const std::vector<Quad>& fixed, double limit_mm2, int rounds) {
-    const int quads = kQuads > 0 ? kQuads : strand.quads;
+                       const NormalMatrix* even, double limit_mm2, int rounds, FitBench& bench) {
     const std::size_t count = stretch.rows.size();
-    target_.resize(count * at(quads));
-    left_.resize(target_.size());
     miss.resize(count);
     emphasis.assign(strand.emphasis.begin() + static_cast<std::ptrdiff_t>(stretch.first_sample),
                     strand.emphasis.begin() + static_cast<std::ptrdiff_t>(stretch.first_sample + count));
-    for (std::size_t i = 0; i < count; ++i) {
-        const QuinticRow& row = stretch.rows[i];
-        const FreePart part = free_part(row, stretch);
-        for (int k = 0; k < quads; ++k) {
-            Quad value = strand.value[(stretch.first_sample + i) * at(quads) + at(k)];
-            for (int r = 0; r < std::min(kSupport, stretch.controls - row.first); ++r) {
-                if (r >= part.begin && r < part.end) continue;
-                value -= row.weight[at(r)] * fixed[at((row.first + r) * quads + k)];
-            }
-            target_[i * at(quads) + at(k)] = value;
-        }
-    }
+    const bool in_basis = measure.modes.size() > 0;
+    double before = 0;
     for (int round = 0; round < rounds; ++round) {
-        solve<kQuads>(stretch, quads);
-        measure_misses<kQuads>(measure, stretch, quads);
+        const bool shared = round == 0 && even;
+        if (!shared) bench.matrix.factor(stretch, emphasis);
+        const NormalMatrix& matrix = shared ? *even : bench.matrix;
+        if (strand.width == 1)
+            solve<1>(strand, stretch, matrix, shared, bench);
+        else
+            solve<4>(strand, stretch, matrix, shared, bench);
+        measure_misses(measure, stretch, strand.width, bench);
         double largest = 0, weighted = 0, sum = 0;
         for (std::size_t i = 0; i < count; ++i) {
             largest = std::max(largest, miss[i]);
@@ -139,18 +258,13 @@ bool StrandFit::within(const Strand& strand, const PointMeasure& measure, const 
             sum += emphasis[i];
         }
         if (largest <= limit_mm2) return true;
-        const bool hopeless =
-            measure.modes.size() == 0 ? weighted > limit_mm2 * sum : largest > kHopeless_mm2 * limit_mm2;
-        if (hopeless) return false;
+        if (in_basis ? largest > kHopeless_mm2 * limit_mm2 : weighted > limit_mm2 * sum) return false;
+        const double left = rounds - 1 - round;  // falling on as it fell, it would not come there
+        if (round >= 2 && largest * std::pow(largest / before, left) > limit_mm2) return false;
+        before = largest;
         emphasise(largest);
     }
     return false;
-}
-
-bool StrandFit::within(const Strand& strand, const PointMeasure& measure, const FitStretch& stretch,
-                       const std::vector<Quad>& fixed, double limit_mm2, int rounds) {
-    if (strand.quads == 1) return within<1>(strand, measure, stretch, fixed, limit_mm2, rounds);
-    return within<0>(strand, measure, stretch, fixed, limit_mm2, rounds);
 }
 
 }  // namespace viaface
