@@ -37,9 +37,9 @@ struct MouthLining {
 // The tongue: sections from the tip to the root, each a closed ring; the tip and the root are closed by a
 // node.
 struct TongueSweep {
-    static constexpr int kSections = 15, kAround = 14, kNodes = kSections * kAround + 2;
+    static constexpr int kSections = 18, kAround = 20, kNodes = kSections * kAround + 2;
 
-    static Nodes rest();  // [212 x 3], mm
+    static Nodes rest();  // [kNodes x 3], mm
     static std::vector<Triangle> triangles(int first);
     // points: the tip, body and rear at rest and now; the underside rides on the jaw.
     static Nodes posed(const Nodes& rest, const std::array<Eigen::Vector3d, 3>& points_rest,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "synth/training/bake_texels.hpp"
+#include "synth/training/collar.hpp"
 
 namespace viaface {
 namespace {
@@ -84,11 +85,6 @@ Vector3f gain_of(const Texture& lender, const TexelColours& scanned) {
     return ours.cwiseQuotient(theirs).cwiseMax(0.25f).cwiseMin(2.5f);
 }
 
-// mm above the collar of the lender's shirt, which keeps its colour.
-float above_collar(const Vector3f& lender_place) {
-    return lender_place.y() + 0.33f * lender_place.z() + 112.6f;
-}
-
 void paint(const PaintedSurface& scan, const Eigen::VectorXd& share, const Face& lender, Face& face,
            Material material) {
     Texture& texture = face.surfaces[static_cast<std::size_t>(material)].base_colour;
@@ -100,6 +96,7 @@ void paint(const PaintedSurface& scan, const Eigen::VectorXd& share, const Face&
     for (std::size_t i = 0; i < grid.texels.size(); ++i) {
         if (grid.texels[i].part < 0) continue;
         std::uint8_t* pixel = &texture.pixels[i * texture.channels];
+        // The lender's shirt keeps its colour.
         const float bare = std::clamp(above_collar(theirs.texels[i].place) + 0.5f, 0.0f, 1.0f);
         for (int k = 0; k < 3; ++k) {
             const float painted = pixel[k] * (1 + bare * (gain[k] - 1));

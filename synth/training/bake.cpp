@@ -29,7 +29,7 @@ Texture blank(int side, int channels, std::uint8_t value) {
 }
 
 // Everything that keeps light off a material: the outside of the head, without the material itself where it
-// touches itself (lips), moves (lashes) or has its light from the mouth's opening.
+// touches itself (lips), moves (lashes, eyes) or has its light from the mouth's opening.
 std::vector<Triangle> casters(const Face& face, Material onto) {
     std::vector<Triangle> triangles;
     for (const FacePart& part : face.parts) {
@@ -41,7 +41,7 @@ std::vector<Triangle> casters(const Face& face, Material onto) {
 }
 
 bool lit_from_outside(Material m) {
-    return m == Material::kSkin || m == Material::kLips || m == Material::kCloth || m == Material::kEye;
+    return m == Material::kSkin || m == Material::kLips || m == Material::kCloth;
 }
 
 void paint_surface(Surface& surface, const TexelGrid& grid, const std::vector<float>& open,

@@ -52,7 +52,7 @@ Hair hair(int index, int count) {
     const float root = (index + 0.5f + spread) / count;
     const float clump = 0.03f * (lattice(index / 3, 5, 0) - 0.5f);  // neighbours lean together
     return {root, 0.12f * (root - 0.42f) + clump + 0.012f * (lattice(index, 2, 0) - 0.5f),
-            0.55f + 0.45f * lattice(index, 3, 0), 0.0050f + 0.0016f * lattice(index, 4, 0)};
+            0.55f + 0.45f * lattice(index, 3, 0), 0.0060f + 0.0018f * lattice(index, 4, 0)};
 }
 
 }  // namespace
@@ -75,13 +75,14 @@ Paint eye_paint(const Texel& texel, const Vector3f& apex, const EyeLids& lids, c
     const float corners = std::max(smooth_step(0.34f, 0.04f, along), smooth_step(0.74f, 1.0f, along));
     Vector3f white =
         white_of_eye(p, out).cwiseProduct(mix(Vector3f::Ones(), Vector3f(0.80f, 0.64f, 0.60f), corners));
-    white = mix(white, linear_from_srgb(188, 112, 104), smooth_step(5.2f, 3.4f, (p - lids[0]).norm()));
+    white = mix(white, linear_from_srgb(188, 112, 104), 0.4f * smooth_step(5.6f, 3.2f, (p - lids[0]).norm()));
     colour = mix(colour, white, smooth_step(kIris - 0.45f, kIris + 0.65f, out));
     const float below_upper = height_through(lids[0], lids[1], lids[2], lids[3], p.x()) - p.y(),
                 above_lower = p.y() - height_through(lids[0], lids[5], lids[4], lids[3], p.x());
     Paint paint{colour, 0.12f};
-    paint.open = mix(0.28f, 1.0f, smooth_step(-0.6f, 4.8f, below_upper)) *
-                 mix(0.62f, 1.0f, smooth_step(-0.4f, 1.6f, above_lower));
+    // What lids hide at rest turns into sight with the gaze: shaded, not black.
+    paint.open = mix(0.32f, 1.0f, smooth_step(-0.6f, 4.8f, below_upper)) *
+                 mix(0.70f, 1.0f, smooth_step(-0.8f, 2.0f, above_lower)) * mix(1.0f, 0.75f, corners);
     return paint;
 }
 
@@ -122,8 +123,11 @@ Paint tongue_paint(const Texel& texel) {
 }
 
 Paint lining_paint(const Texel& texel) {
-    const Vector3f colour = linear_from_srgb(176, 84, 80) * (0.82f + 0.3f * fractal(texel.place * 0.2f));
-    return {colour, 0.34f, 0, 1, mix(1.0f, 0.7f, smooth_step(-20, -70, texel.place.z()))};
+    const Vector3f& p = texel.place;
+    const Vector3f colour = linear_from_srgb(158, 88, 84) * (0.82f + 0.3f * fractal(p * 0.2f));
+    const float beside = smooth_step(15, 24, std::abs(p.x())), behind = smooth_step(2, -14, p.z());
+    return {colour, 0.34f, 0, 1,
+            mix(1.0f, 0.30f, beside * behind) * mix(1.0f, 0.5f, smooth_step(-14, -60, p.z()))};
 }
 
 Paint lash_paint(const Texel& texel) {

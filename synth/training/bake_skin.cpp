@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "synth/training/bake_paint.hpp"
+#include "synth/training/collar.hpp"
 #include "synth/training/hairline.hpp"
 
 namespace viaface {
@@ -10,8 +11,6 @@ namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-
-constexpr float kCollarSlope = 0.33f, kCollarHeight = -112.6f;  // the collar: y + slope * z = height, mm
 
 struct NearSegment {
     float distance, along;
@@ -21,8 +20,6 @@ NearSegment to_segment(const Vector3f& p, const Vector3f& a, const Vector3f& b) 
     const float t = clamp01((p - a).dot(way) / way.squaredNorm());
     return {(p - a - t * way).norm(), t};
 }
-
-float collar(const Vector3f& p) { return p.y() + kCollarSlope * p.z() - kCollarHeight; }  // mm, > 0 skin
 
 Vector3f tinted(const Vector3f& colour, const Vector3f& tint, float share) {
     return colour.cwiseProduct(mix(Vector3f::Ones(), tint, clamp01(share)));
@@ -174,7 +171,7 @@ float SkinPaint::nostril(const Vector3f& p, float open) const {
 Paint SkinPaint::at(const Texel& texel, float open) const {
     const Vector3f& p = texel.place;
     constexpr float kHem = 1.1f;  // mm to either side of the collar's edge, about a texel there
-    const float cloth = smooth_step(kHem, -kHem, collar(p));
+    const float cloth = smooth_step(kHem, -kHem, above_collar(p));
     if (cloth == 1) return cloth_paint(p, looks_.cloth);
     const float into_lips = lip_depth(p),
                 lips = smooth_step(-1.2f, 1.1f, into_lips + 0.8f * (noise(p * 0.9f) - 0.5f));
@@ -226,7 +223,7 @@ Paint SkinPaint::at(const Texel& texel, float open) const {
 }
 
 float SkinPaint::height(const Vector3f& p) const {
-    if (collar(p) < 0) return 1.2f * smooth_step(0, -1.5f, collar(p)) + 0.04f * noise(p * 1.3f);
+    if (above_collar(p) < 0) return 1.2f * smooth_step(0, -1.5f, above_collar(p)) + 0.04f * noise(p * 1.3f);
     const float lips = smooth_step(-0.5f, 1.5f, lip_depth(p)),
                 hair = smooth_step(-3, 10, hair_depth(looks_.hair, p));
     const float pores = 0.11f * noise(p * 0.45f) + 0.055f * noise(p * 0.95f);

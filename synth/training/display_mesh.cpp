@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "synth/training/collar.hpp"
 #include "synth/training/display_curves.hpp"
 
 namespace viaface {
@@ -49,13 +50,26 @@ double distance_to(const std::vector<Vector3d>& places, const Vector3d& from) {
     return std::sqrt(least);
 }
 
+// mm from the box about the nearer ear, with where it grows from the head.
+double to_ear(const Vector3d& place) {
+    const Vector3d low(68, 0, -124), high(92, 84, -92), at(std::abs(place.x()), place.y(), place.z());
+    return (at - at.cwiseMax(low).cwiseMin(high)).norm();
+}
+
+// So that the collar's edge, which the mesh crosses, is round.
+double collar_spacing(const Vector3d& place) {
+    constexpr double kAtCollar = 4.5, kGrowth = 0.45;
+    return kAtCollar + kGrowth * std::abs(above_collar(place));
+}
+
 // Wanted edge length over the face: fine at the lips, the lids and the nostrils, coarse far from them.
 Spacing face_spacing(std::vector<Vector3d> features, std::vector<Vector3d> nose) {
-    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 9, kEar = 2.9, kNoseFiner = 3;
+    static constexpr double kFinest = 2.0, kGrowth = 0.16, kCoarsest = 9, kEar = 2.7, kEarGrowth = 0.5,
+                            kNoseFiner = 3;
     return [features = std::move(features), nose = std::move(nose)](const Vector3d& place) {
         const double near = std::min(distance_to(features, place), distance_to(nose, place) - kNoseFiner);
-        const bool ear = std::abs(place.x()) > 76 && place.y() > 5 && place.y() < 85;
-        return std::min(kFinest + kGrowth * near, ear ? kEar : kCoarsest);
+        return std::min(
+            {kFinest + kGrowth * near, kEar + kEarGrowth * to_ear(place), collar_spacing(place), kCoarsest});
     };
 }
 
@@ -126,13 +140,14 @@ void mesh_front(DisplayAnchors& mesh, const Chart& chart, const BlendHead& head)
 }
 
 void mesh_back(DisplayAnchors& mesh, const Chart& chart, const Nodes& scan) {
-    constexpr double kSpacing = 12;  // mm
+    static constexpr double kSpacing = 12;  // mm
     const Curve bottom = resample_loop(chart.holes().at(0), scan, kBottomNodes);
     append(mesh.back, bottom);
     const auto border = places_of(bottom, chart);
     append(mesh.back,
            sample_surface(
-               scan, chart, mesh.back, [](const Vector3d&) { return kSpacing; },
+               scan, chart, mesh.back,
+               [](const Vector3d& place) { return std::min(kSpacing, collar_spacing(place)); },
                [&](const Anchor& anchor) { return !inside(border, chart.uv(anchor)); }, kSeed + 1));
     mesh.back_places = places_of(mesh.back, chart);
     mesh.back_triangles = triangulate(mesh.back_places, nodes_at(mesh.back, scan),

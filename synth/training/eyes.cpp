@@ -52,11 +52,14 @@ PartMesh eye(double side, const EyeBall& ball) {
 
 Nodes lash_strip(const Nodes& roots, const EyeBall& ball, bool upper) {
     const auto count = static_cast<int>(roots.rows());
-    const double length = upper ? 8.0 : 4.6, curl = upper ? 0.72 : -0.55;
+    constexpr double kShut = -0.30, kOpen = 0.02;  // height of an upper lash's root over its distance
+    const double length = upper ? 8.0 : 4.6;
     Nodes strip(kLashRows * count, 3);
     for (int i = 0; i < count; ++i) {
         const Vector3d root = roots.row(i), out = (root - ball.centre).normalized();
         const Vector3d up = (Vector3d::UnitY() - out * out.y()).normalized();
+        const double raised = std::clamp((out.y() - kShut) / (kOpen - kShut), 0.0, 1.0);
+        const double curl = upper ? -0.20 + 0.92 * raised : -0.55;  // a shut lid's lashes hang
         const double along = (i + 0.5) / count;
         const double reach = length * (0.55 + 0.45 * std::sin(std::numbers::pi * (0.15 + 0.75 * along)));
         for (int r = 0; r < kLashRows; ++r) {

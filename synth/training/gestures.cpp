@@ -1,6 +1,7 @@
 #include "synth/training/gestures.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -89,9 +90,9 @@ struct Field {
     ArrayXd weight, goal;
 };
 
-Field field_of(const std::vector<Pull>& pulls, Index samples) {
+Field field_of(const std::vector<Pull>& pulls, double rest, Index samples) {
     constexpr double kFarthest = 4;  // reaches: less than 2e-7 of the dominance lies beyond
-    Field field{ArrayXd::Constant(samples, kFloor), ArrayXd::Zero(samples)};
+    Field field{ArrayXd::Constant(samples, kFloor), ArrayXd::Constant(samples, kFloor * rest)};
     for (const Pull& pull : pulls) {
         const double margin = kFarthest * pull.reach_s;
         const Index first = std::max<Index>(0, std::lround((pull.begin_s - margin) * kGestureRate));
@@ -105,8 +106,10 @@ Field field_of(const std::vector<Pull>& pulls, Index samples) {
             field.goal(k) += weight * pull.target;
         }
     }
-    field.weight.head(std::min<Index>(3, samples)) += kEndPull;
-    field.weight.tail(std::min<Index>(3, samples)) += kEndPull;
+    for (const Index end : {Index(0), samples - std::min<Index>(3, samples)}) {
+        field.weight.segment(end, std::min<Index>(3, samples)) += kEndPull;
+        field.goal.segment(end, std::min<Index>(3, samples)) += kEndPull * rest;
+    }
     return field;
 }
 
@@ -152,6 +155,13 @@ ArrayXd solve_band(Band a, ArrayXd x) {
 
 }  // namespace
 
+std::array<double, kChannels> resting_channels() {
+    const Gestures& pause = gestures_of(kPause).front();
+    std::array<double, kChannels> rest;
+    std::ranges::transform(pause, rest.begin(), &Gesture::target);
+    return rest;
+}
+
 ChannelMotion gesture(const PhoneSequence& phones) {
     if (phones.phones.empty()) throw std::invalid_argument("no phones to perform");
     const double end = phones.end_s(phones.phones.size() - 1);
@@ -160,8 +170,10 @@ ChannelMotion gesture(const PhoneSequence& phones) {
     for (Index k = 0; k < samples; ++k) motion.time_s.push_back(static_cast<double>(k) / kGestureRate);
     motion.channels.resize(samples, kChannels);
     const Band smooth = smoothness(samples);
+    const std::array<double, kChannels> rest = resting_channels();
     for (int channel = 0; channel < kChannels; ++channel) {
-        const Field field = field_of(pulls_of(phones, channel), samples);
+        const Field field =
+            field_of(pulls_of(phones, channel), rest[static_cast<std::size_t>(channel)], samples);
         Band system = smooth;
         system.row(0) += field.weight.transpose();
         motion.channels.col(channel) = solve_band(std::move(system), field.goal).matrix();

@@ -22,6 +22,9 @@ struct ChannelMotion {
     RowMatrix channels;          // [samples x kChannels], mm from rest
 };
 
+// Of the face at rest, lips together: the pause's targets, where every motion begins and ends.
+std::array<double, kChannels> resting_channels();
+
 // std::invalid_argument for an empty sequence.
 ChannelMotion gesture(const PhoneSequence& phones);
 

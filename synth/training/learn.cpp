@@ -56,7 +56,7 @@ Codex learn_codex(const Performer& performer, const std::vector<PhoneSequence>& 
         return Take{"recitation " + std::to_string(i), corpus[i], performer.perform(corpus[i])};
     };
     LearntCodex learnt = learn_from_takes(basis_of(performer, corpus, options.basis_error_mm),
-                                          performer.rest(), corpus.size(), perform, kProvenance, options);
+                                          performer.resting(), corpus.size(), perform, kProvenance, options);
     if (progress) progress(summary(learnt));
     return std::move(learnt.codex);
 }

@@ -53,7 +53,7 @@ struct Looks {
     HairStyle hair;
     Brows brows;
     Srgb iris_inner{122, 86, 50}, iris_outer{84, 88, 74};
-    float lash_line = 0.55f;  // how dark the upper lashes' roots are
+    float lash_line = 0.75f;  // how dark the upper lashes' roots are
     Srgb cloth{44, 52, 70};
 };
 

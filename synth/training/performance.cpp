@@ -102,6 +102,11 @@ Configuration Performer::configuration(const Channels& channels) const {
     return c;
 }
 
+Configuration Performer::resting() const {
+    const auto channels = resting_channels();
+    return configuration(Eigen::Map<const Channels>(channels.data()));
+}
+
 Motion Performer::perform(const PhoneSequence& phones) const {
     const ChannelMotion channels = gesture(phones);
     Motion motion{channels.time_s, RowMatrix(channels.channels.rows(), kCoordinates)};

@@ -25,7 +25,8 @@ class Performer {
     Configuration configuration(const Channels& channels) const;
     Motion perform(const PhoneSequence& phones) const;  // at kGestureRate
 
-    const Configuration& rest() const { return rest_; }
+    const Configuration& rest() const { return rest_; }  // the neutral head's, its lips a little apart
+    Configuration resting() const;                       // lips together, as in a pause
 
   private:
     enum Shape {

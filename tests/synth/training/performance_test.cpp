@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/synth/training/spoken.hpp"
@@ -28,6 +29,8 @@ class PerformerTest : public ::testing::Test {
 double gap(const Configuration& c, Point top = kInnerTop, Point bottom = kInnerBottom) {
     return point_of(c, top).y() - point_of(c, bottom).y();
 }
+constexpr double kOverEdge = 1.5;  // mm: what the lower lip may cover of the upper teeth
+
 double width(const Configuration& c) { return point_of(c, kBorderLeft).x() - point_of(c, kBorderRight).x(); }
 
 // Samples of a phone.
@@ -63,6 +66,16 @@ TEST_F(PerformerTest, RestIsTheNeutralHead) {
     EXPECT_LT(
         (performer_->configuration(Performer::Channels::Zero()) - performer_->rest()).cwiseAbs().maxCoeff(),
         1e-9);
+}
+
+TEST_F(PerformerTest, LipsAreTogetherInAPauseAndNotPressed) {
+    const Configuration c = performer_->resting();
+    for (const auto& [top, bottom] :
+         {std::pair{kInnerTop, kInnerBottom}, std::pair{kInnerTopLeft, kInnerBottomLeft},
+          std::pair{kInnerTopRight, kInnerBottomRight}}) {
+        EXPECT_LE(gap(c, top, bottom), 0);
+        EXPECT_GT(gap(c, top, bottom), -0.6);
+    }
 }
 
 // Channels are what the points do, wherever the shapes' combination is exact.
@@ -113,7 +126,9 @@ TEST_F(PerformerTest, LabiodentalsBringTheLowerLipToTheUpperIncisors) {
                 const PhoneSequence phones = spoken(vcv(first, consonant, second, 90));
                 const double nearest =
                     least(performer_->perform(phones), span_of(phones, 2), [](const Configuration& c) {
-                        return point_of(c, kInnerBottom).norm();  // the origin lies on the incisors' edge
+                        Eigen::Vector3d lip = point_of(c, kInnerBottom);  // the origin lies on their edge
+                        lip.y() -= std::clamp(lip.y(), 0.0, kOverEdge);
+                        return lip.norm();
                     });
                 EXPECT_LT(nearest, 1) << first << " " << consonant << " " << second;
             }
