@@ -7,6 +7,7 @@ namespace viaface {
 namespace {
 
 constexpr double kNoSuchGap = 1000;  // bits
+constexpr int kFurthest = 40;        // differences beyond it cost by their length
 
 double difference_bits(const ValueContexts& contexts, int row, std::size_t active,
                        const Prediction& predicted, int v) {
@@ -17,8 +18,14 @@ double difference_bits(const ValueContexts& contexts, int row, std::size_t activ
     const int size = std::abs(v);
     for (int n = 1; n <= std::min(size, kUnaryLimit); ++n)
         bits += bits_of(more[static_cast<std::size_t>(n - 1)].one, size > n);
-    if (size > kUnaryLimit) bits += 2 * std::log2(size - kUnaryLimit) + 1;
+    if (size > kUnaryLimit) bits += 1;
     return bits;
+}
+
+// What a difference costs beyond the smallest one that is not told in unary.
+double far_bits(int size) {
+    const int known = std::min(size, kFurthest);
+    return 2 * std::log2(known - kUnaryLimit) + 0.2 * (size - known);
 }
 
 }  // namespace
@@ -34,13 +41,15 @@ StreamCost::StreamCost(const StreamStatistics& statistics) : statistics_(statist
             for (int k = 0; k < n; ++k) last_[static_cast<std::size_t>((row * n + k) * n + j)] = *w++;
             before_[static_cast<std::size_t>(row * n + j)] = *w++;
             for (int k = 0; k < j; ++k) now_[static_cast<std::size_t>((row * n + k) * n + j)] = *w++;
-            for (std::size_t a = 0; a < 3; ++a)
-                for (int lean = 0; lean < kLeans; ++lean)
-                    for (int v = -kFurthest; v <= kFurthest; ++v)
-                        difference_.push_back(static_cast<float>(difference_bits(
-                            statistics.value[static_cast<std::size_t>(j)], row, a, {0, lean}, v)));
         }
     }
+    for (int row = 0; row < kRowClasses; ++row)
+        for (int j = 0; j < n; ++j)
+            for (std::size_t a = 0; a < 3; ++a)
+                for (int lean = 0; lean < kLeans; ++lean)
+                    for (int v = -kLookedUp; v <= kLookedUp; ++v)
+                        difference_.push_back(static_cast<float>(difference_bits(
+                            statistics.value[static_cast<std::size_t>(j)], row, a, {0, lean}, v)));
     for (std::size_t c = 0; c < kGapContexts; ++c) {
         double longer = 0;
         gap_.push_back(0);
@@ -58,16 +67,16 @@ double StreamCost::gap(int context, int ticks) const {
 }
 
 double StreamCost::values(int row, const PredictionSums& sums, const ViaValues& values) const {
-    constexpr int kSide = 2 * kFurthest + 1, kActive = kLeans * kSide, kRow = 3 * kActive;
+    constexpr int kSide = 2 * kLookedUp + 1, kActive = kLeans * kSide, kValue = 3 * kActive;
     double bits = 0;
     int active = 0;
-    const float* table = difference_.data() + row * kRow;
-    for (std::size_t k = 0; k < values.size(); ++k, table += kRowClasses * kRow) {
+    const float* table = difference_.data() + row * components() * kValue;
+    for (std::size_t k = 0; k < values.size(); ++k, table += kValue) {
         const Prediction predicted = rounded_prediction(sums[k]);
         const std::int32_t rest = values[k] - predicted.nearest;
-        const std::int32_t v = std::clamp(rest, -kFurthest, kFurthest);
-        bits += static_cast<double>(table[active * kActive + predicted.lean * kSide + v + kFurthest]) +
-                0.2 * std::abs(rest - v);
+        const std::int32_t v = std::clamp(rest, -kLookedUp, kLookedUp);
+        bits += static_cast<double>(table[active * kActive + predicted.lean * kSide + v + kLookedUp]);
+        if (rest != v) bits += far_bits(std::abs(rest));
         if (rest != 0 && active < 2) ++active;
     }
     return bits;

@@ -24,7 +24,7 @@ class StreamCost {
     void add_before(int row, int k, std::int64_t by, PredictionSums& sums) const;
 
   private:
-    static constexpr int kFurthest = 40;
+    static constexpr int kLookedUp = kUnaryLimit + 1;  // of differences, either way
     const std::int64_t* of(const std::vector<std::int64_t>& weights, int row, int k) const {
         return weights.data() + (row * components() + k) * components();
     }
@@ -32,7 +32,7 @@ class StreamCost {
     const StreamStatistics& statistics_;
     std::vector<std::int64_t> now_, last_;  // [kRowClasses][k, told][components, predicted]
     std::vector<std::int64_t> before_;      // [kRowClasses][components]
-    std::vector<float> difference_;         // [components][kRowClasses][3 active][kLeans][2 kFurthest + 1]
+    std::vector<float> difference_;         // [kRowClasses][components][3 active][kLeans][2 kLookedUp + 1]
     std::vector<double> gap_;               // [kGapContexts][kMostGapTicks + 1]
 };
 

@@ -186,16 +186,17 @@ void StreamDescent::add_to_sums(const Change& change, std::size_t n) {
 
 bool StreamDescent::tried(const Change& change, double penalty) {
     const std::size_t last = std::min(change.first + change.rows + 1, values_.size() - 1);
+    const double before = bits(change.first, last + 1);
+    if (peeked_excess(change, penalty) > before) return false;  // more than all bits could make up for
     kept_.assign(rows_.begin() + static_cast<std::ptrdiff_t>(change.first),
                  rows_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-    const double before = bits(change.first, last + 1);
     add(change, 1);
     for (std::size_t n = change.first; n <= last; ++n) {
         add_to_sums(change, n);
         cost_row(n, false);
     }
     const double needed = before - bits(change.first, last + 1) - kGain;
-    if (allowed(change) && excess_change(change, needed, penalty) < needed) {
+    if (allowed(change) && excess_change(needed, penalty) < needed) {
         adopt(change);
         return true;
     }
@@ -233,24 +234,43 @@ void StreamDescent::find_moved(const Change& change) {
     fresh_.resize(moved_.size());
 }
 
-// The change of penalty * excess; stops once it must be over `most`.
-double StreamDescent::excess_change(const Change& change, double most, double penalty) {
+// What becomes of a sample's squared error, i of those moved.
+float StreamDescent::error_after(Index i) const {
+    const Index p = problem_->points();
+    const float a = moved_[i];
+    const auto off = off_.col(moved_from_ + i).array();
+    return ((off.segment(0, p) + a * direction_.segment(0, p)).square() +
+            (off.segment(p, p) + a * direction_.segment(p, p)).square() +
+            (off.segment(2 * p, p) + a * direction_.segment(2 * p, p)).square())
+        .maxCoeff();
+}
+
+// At least so much is the change of penalty * excess, by the sample that is moved most.
+double StreamDescent::peeked_excess(const Change& change, double penalty) {
     find_moved(change);
-    const Index p = problem_->points(), n = moved_.size();
+    const Index n = moved_.size();
+    if (n == 0) return 0;
+    find_response(change);
+    Index most = 0;
+    moved_.abs().maxCoeff(&most);
+    const auto weight = weight_.segment(moved_from_, n);
+    const double left =
+        (weight * (error_.segment(moved_from_, n) - kBoundLimit).max(0.0f)).cast<double>().sum();
+    return penalty * (weight[most] * std::max(0.0f, error_after(most) - kBoundLimit) - left);
+}
+
+// The change of penalty * excess by the change that was peeked at; stops once it must be over `most`.
+double StreamDescent::excess_change(double most, double penalty) {
+    const Index n = moved_.size();
     // the excess now is what may at most be won
     const auto weight = weight_.segment(moved_from_, n);
     double left = (weight * (error_.segment(moved_from_, n) - kBoundLimit).max(0.0f)).cast<double>().sum();
     double changed = 0;
     if (-penalty * left > most) return -penalty * left;
-    find_response(change);
     for (Index step = 0; step < n; ++step) {  // from the middle outwards: there it moves most
         const Index i = n / 2 + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
-        const float a = moved_[i], was = error_[moved_from_ + i];
-        const auto off = off_.col(moved_from_ + i).array();
-        fresh_[i] = ((off.segment(0, p) + a * direction_.segment(0, p)).square() +
-                     (off.segment(p, p) + a * direction_.segment(p, p)).square() +
-                     (off.segment(2 * p, p) + a * direction_.segment(2 * p, p)).square())
-                        .maxCoeff();
+        const float was = error_[moved_from_ + i];
+        fresh_[i] = error_after(i);
         const double over = weight[i] * std::max(0.0f, was - kBoundLimit),
                      now = weight[i] * std::max(0.0f, fresh_[i] - kBoundLimit);
         changed += penalty * (now - over);

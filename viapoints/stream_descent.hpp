@@ -59,7 +59,9 @@ class StreamDescent {
     void add_to_sums(const Change& change, std::size_t n);
     void cost_row(std::size_t n, bool anew);
     double gap_bits(std::size_t n) const;
-    double excess_change(const Change& change, double most, double penalty);
+    float error_after(Eigen::Index i) const;
+    double peeked_excess(const Change& change, double penalty);
+    double excess_change(double most, double penalty);
     void find_moved(const Change& change);
     void find_response(const Change& change);
     bool touches_excess(std::size_t j) const;
