@@ -1,9 +1,10 @@
 #include "facemodel/estimator.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -59,16 +60,14 @@ EstimatorFor LinearEstimator::for_presence(const Presence& present) const {
     const Eigen::MatrixXd measured = points_(made.coordinates_, Eigen::all);
     made.mean_points_ = measured.rowwise().mean();
     made.mean_targets_ = targets_.rowwise().mean();
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(measured.colwise() - made.mean_points_,
-                                                Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Eigen::VectorXd& s = svd.singularValues();
+    const auto [u, s, v] = thin_svd(measured.colwise() - made.mean_points_);
     const double ridge = static_cast<double>(points_.cols()) * options_.noise_mm * options_.noise_mm;
     Eigen::VectorXd gain = Eigen::VectorXd::Zero(s.size());
     for (; made.rank_ < s.size() && s[made.rank_] > options_.tolerance * s[0]; ++made.rank_) {
         gain[made.rank_] = s[made.rank_] / (s[made.rank_] * s[made.rank_] + ridge);
     }
     const Eigen::MatrixXd deviations = targets_.colwise() - made.mean_targets_;
-    made.matrix_ = deviations * svd.matrixV() * gain.asDiagonal() * svd.matrixU().transpose();
+    made.matrix_ = deviations * v * gain.asDiagonal() * u.transpose();
     return made;
 }
 

@@ -1,7 +1,8 @@
 #include "lipmodel/closed_lips.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -9,11 +10,11 @@ namespace {
 // The inverse of a covariance along the directions in which it is one.
 Eigen::Matrix3d inverse_where_it_moves(const Eigen::Matrix3d& covariance) {
     constexpr double kShare = 1e-6, kStill = 1e-6;  // of the largest; mm^2
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    const double least = std::max(kStill, kShare * solver.eigenvalues()[2]);
+    const auto [values, vectors] = symmetric_eigen(covariance);
+    const double least = std::max(kStill, kShare * values[2]);
     const Eigen::Vector3d inverse =
-        solver.eigenvalues().unaryExpr([&](double value) { return value > least ? 1 / value : 0.0; });
-    return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+        values.unaryExpr([&](double value) { return value > least ? 1 / value : 0.0; });
+    return vectors * inverse.asDiagonal() * vectors.transpose();
 }
 
 }  // namespace
@@ -40,10 +41,10 @@ ClosedLips closed_lips(const LipModel& model) {
     ClosedLips closed{.model = model, .at = -gain * still};
     const Eigen::MatrixXd covariance =
         Eigen::MatrixXd(model.variance.asDiagonal()) - gain * spread.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-    const Eigen::VectorXd values = solver.eigenvalues().reverse();
+    const SymmetricEigen free = symmetric_eigen(covariance);
+    const Eigen::VectorXd values = free.values.reverse();
     const Eigen::Index kept = (values.array() > kFree * model.variance.maxCoeff()).count();
-    closed.turn = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+    closed.turn = free.vectors.rowwise().reverse().leftCols(kept);
     closed.cost = 0.5 * closed.at.cwiseAbs2().cwiseQuotient(model.variance).sum();
     closed.model.mean += model.modes * closed.at;
     closed.model.modes = model.modes * closed.turn;

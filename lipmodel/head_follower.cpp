@@ -1,10 +1,11 @@
 #include "lipmodel/head_follower.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -86,7 +87,7 @@ HeadFollower::HeadFollower(const Picture& first, const PictureBox& patch) {
         slopes_.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
     Eigen::MatrixXd normal = slopes_.transpose() * slopes_;
     normal.diagonal().array() += 1e-6 * normal.trace();
-    solver_ = normal.ldlt().solve(slopes_.transpose());
+    solver_ = solve_positive(normal, Eigen::MatrixXd(slopes_.transpose()));
 }
 
 Followed HeadFollower::follow(const Picture& now, const Similarity& start) const {

@@ -1,10 +1,11 @@
 #include "lipmodel/lip_posterior.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -185,7 +186,7 @@ Eigen::VectorXd LipPosterior::ascent(const Eigen::VectorXd& theta) const {
     Eigen::MatrixXd metric = slopes.transpose() * weight.asDiagonal() * slopes;
     metric.diagonal() += certainty_;
     const Eigen::VectorXd gradient = slopes.colwise().sum().transpose() - theta.cwiseProduct(certainty_);
-    return metric.ldlt().solve(gradient);
+    return solve_positive(metric, gradient);
 }
 
 }  // namespace viaface

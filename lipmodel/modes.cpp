@@ -1,25 +1,14 @@
 #include "lipmodel/modes.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "base/decompositions.hpp"
+
 namespace viaface {
 namespace {
-
-// The spread as Q R with Q [612 x 48] orthonormal: displacements lie in the span of Q, so that the
-// eigenvectors of R_u are Q times those of a matrix of 48 x 48.
-struct Span {
-    Eigen::MatrixXd q, r;
-};
-Span span_of(const Eigen::MatrixXd& spread) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(spread);
-    return {qr.householderQ() * Eigen::MatrixXd::Identity(spread.rows(), spread.cols()),
-            qr.matrixQR().topRows(spread.cols()).triangularView<Eigen::Upper>()};
-}
 
 struct Spectrum {
     Eigen::VectorXd mean_goal;  // [48]
@@ -28,15 +17,17 @@ struct Spectrum {
     Eigen::VectorXd noise;      // variance along each that noise of the points gives
 };
 
-Spectrum spectrum_of(const Span& span, const Eigen::MatrixXd& goals, double noise_mm) {
+// The spread as Q R with Q [612 x 48] orthonormal: displacements lie in the span of Q, so that the
+// eigenvectors of R_u are Q times those of a matrix of 48 x 48.
+Spectrum spectrum_of(const ThinQr& span, const Eigen::MatrixXd& goals, double noise_mm) {
     Spectrum found;
     found.mean_goal = goals.rowwise().mean();
     const Eigen::MatrixXd centred = goals.colwise() - found.mean_goal;
     const double samples = std::max<double>(1, static_cast<double>(goals.cols()) - 1);
     const Eigen::MatrixXd covariance = centred * centred.transpose() / samples;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(span.r * covariance * span.r.transpose());
-    found.values = solver.eigenvalues().reverse();
-    found.vectors = solver.eigenvectors().rowwise().reverse();
+    const auto [values, vectors] = symmetric_eigen(span.r * covariance * span.r.transpose());
+    found.values = values.reverse();
+    found.vectors = vectors.rowwise().reverse();
     found.noise = noise_mm * noise_mm * (span.r.transpose() * found.vectors).colwise().squaredNorm();
     return found;
 }
@@ -75,7 +66,7 @@ double carried_at_points(const LipModel& model) {
 
 LipModel learn_lips(const LipBody& body, const Eigen::MatrixXd& frames, const LipTraining& training) {
     const Eigen::MatrixXd goals = goals_of(body, frames);
-    const Span span = span_of(body.spread);
+    const ThinQr span = thin_qr(body.spread);
     const Spectrum spectrum = spectrum_of(span, goals, training.noise_mm);
     std::vector<Eigen::Index> kept = above_noise(spectrum);
     if (kept.empty()) throw std::runtime_error("learn_lips: nothing moves above the noise");
@@ -98,7 +89,7 @@ LipModel learn_lips(const LipBody& body, const Eigen::MatrixXd& frames, const Li
 
 int carried_modes(const LipBody& body, const Eigen::MatrixXd& frames, double noise_mm) {
     return static_cast<int>(
-        above_noise(spectrum_of(span_of(body.spread), goals_of(body, frames), noise_mm)).size());
+        above_noise(spectrum_of(thin_qr(body.spread), goals_of(body, frames), noise_mm)).size());
 }
 
 Eigen::MatrixXd frames_like(const LipModel& model) {

@@ -1,9 +1,9 @@
 #include "lipmodel/reconstruction.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <stdexcept>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -52,12 +52,12 @@ ModeEstimator::ModeEstimator(const LipModel& model, std::span<const int> seen, d
     centre_ = Eigen::VectorXd(marked_of(lip_shape(model, Eigen::VectorXd::Zero(model.modes.cols()))))(seen_);
     const Eigen::MatrixXd moved = marked_rows(model.modes)(seen_, Eigen::all);
     if (variance == 0) {
-        gain_ = moved.completeOrthogonalDecomposition().pseudoInverse();
+        gain_ = pseudo_inverse(moved);
         return;
     }
     Eigen::MatrixXd normal = moved.transpose() * moved;
     normal.diagonal() += variance * model.variance.cwiseInverse();
-    gain_ = normal.ldlt().solve(moved.transpose());
+    gain_ = solve_positive(normal, Eigen::MatrixXd(moved.transpose()));
 }
 
 Eigen::MatrixXd ModeEstimator::modes(const Eigen::MatrixXd& frames) const {

@@ -1,8 +1,8 @@
 #include "lipmodel/spread.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <vector>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -26,10 +26,7 @@ Eigen::MatrixXd compliance(const GroundedBody& body, const std::vector<Eigen::In
 
 Eigen::MatrixXd least_force_spread(const GroundedBody& body, std::span<const int> points) {
     // P^t = Q R, hence P^t (P P^t)^-1 = Q R^-t: P P^t would square the condition number.
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(compliance(body, freedoms_of(points)));
-    const Eigen::Index goals = qr.matrixQR().cols();
-    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(body.freedoms(), goals);
-    const Eigen::MatrixXd r = qr.matrixQR().topRows(goals).triangularView<Eigen::Upper>();
+    const auto [q, r] = thin_qr(compliance(body, freedoms_of(points)));
     return r.triangularView<Eigen::Upper>().solve(body.displacements(q).transpose()).transpose();
 }
 
@@ -37,7 +34,7 @@ Eigen::MatrixXd least_energy_spread(const GroundedBody& body, std::span<const in
     const auto at = freedoms_of(points);
     const Eigen::MatrixXd p_transposed = compliance(body, at);
     const Eigen::MatrixXd at_points = p_transposed(at, Eigen::all);
-    return at_points.ldlt().solve(p_transposed.transpose()).transpose();
+    return solve_positive(at_points, Eigen::MatrixXd(p_transposed.transpose())).transpose();
 }
 
 }  // namespace viaface

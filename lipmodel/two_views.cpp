@@ -1,9 +1,10 @@
 #include "lipmodel/two_views.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 
@@ -19,11 +20,10 @@ Triangulated triangulate(const Projection& first, const Eigen::Vector2d& in_firs
     a.row(2) = in_second.x() * second.row(2) - second.row(0);
     a.row(3) = in_second.y() * second.row(2) - second.row(1);
     for (int i = 0; i < 4; ++i) a.row(i) /= a.row(i).head<3>().norm();  // distances in mm
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a.leftCols<3>(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const auto [u, s, v] = thin_svd(a.leftCols<3>());
     constexpr double kLeastAngle = 1e-4;  // radians between the rays
-    if (!(svd.singularValues()[2] > kLeastAngle))
-        throw std::runtime_error("triangulate: the two rays do not meet in one place");
-    const Eigen::Vector3d place = svd.solve(-a.col(3));
+    if (!(s[2] > kLeastAngle)) throw std::runtime_error("triangulate: the two rays do not meet in one place");
+    const Eigen::Vector3d place = -v * (u.transpose() * a.col(3)).cwiseQuotient(s);
     const double squares = (projected(first, place) - in_first).squaredNorm() +
                            (projected(second, place) - in_second).squaredNorm();
     return {place, std::sqrt(squares / 2)};

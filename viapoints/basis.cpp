@@ -1,10 +1,10 @@
 #include "viapoints/basis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "base/decompositions.hpp"
 #include "base/error.hpp"
 #include "viapoints/measured.hpp"
 
@@ -26,16 +26,13 @@ Eigen::VectorXd with_positive_peak(const Eigen::VectorXd& mode) {
 
 // Modes in the packed coordinates of the measured points, most important first. Eigenvalues come rising.
 Eigen::MatrixXd packed_modes(const RowMatrix& centred, Index wanted) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-        Eigen::MatrixXd(centred.transpose() * centred));
-    if (solver.info() != Eigen::Success) throw std::runtime_error("principal components did not converge");
+    const auto [values, vectors] = symmetric_eigen(centred.transpose() * centred);
     const Index n = centred.cols();
-    const double smallest = kSmallestVarianceShare * std::max(0.0, solver.eigenvalues()[n - 1]);
+    const double smallest = kSmallestVarianceShare * std::max(0.0, values[n - 1]);
     Index kept = 0;
-    while (kept < std::min({wanted, n, centred.rows()}) && solver.eigenvalues()[n - 1 - kept] > smallest)
-        ++kept;
+    while (kept < std::min({wanted, n, centred.rows()}) && values[n - 1 - kept] > smallest) ++kept;
     Eigen::MatrixXd modes(n, kept);
-    for (Index k = 0; k < kept; ++k) modes.col(k) = with_positive_peak(solver.eigenvectors().col(n - 1 - k));
+    for (Index k = 0; k < kept; ++k) modes.col(k) = with_positive_peak(vectors.col(n - 1 - k));
     return modes;
 }
 

@@ -1,11 +1,10 @@
 #include "viapoints/stream_basis.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <bitset>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "viapoints/measured.hpp"
 
 namespace viaface {
@@ -26,8 +25,7 @@ RowMatrix left_over(const ConfigurationBasis& basis, const std::vector<int>& poi
 }
 
 Eigen::VectorXd leading_direction(const RowMatrix& rows) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(rows.transpose() * rows));
-    return solver.eigenvectors().rightCols(1);
+    return symmetric_eigen(rows.transpose() * rows).vectors.rightCols(1);
 }
 
 }  // namespace
@@ -105,7 +103,7 @@ RowMatrix fitted_components(const ConfigurationBasis& basis, const std::vector<i
         coordinates_of(positions, points).rowwise() - coordinates_of(basis.mean.transpose(), points).row(0);
     if (basis.size() == 0) return RowMatrix(positions.rows(), 0);
     const Eigen::MatrixXd modes = coordinates_of(basis.modes.transpose(), points).transpose();
-    return modes.completeOrthogonalDecomposition().solve(off.transpose()).transpose();
+    return least_squares(modes, Eigen::MatrixXd(off.transpose())).transpose();
 }
 
 ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::vector<int>& points,

@@ -1,11 +1,10 @@
 #include "viapoints/stream_blends.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "viapoints/measured.hpp"
 #include "viapoints/range_coder.hpp"
 #include "viapoints/stream_basis.hpp"
@@ -51,15 +50,14 @@ Eigen::VectorXd direction_of(const RowMatrix& rest, const Eigen::MatrixXd& taken
     Eigen::MatrixXd both(taken.rows(), taken.cols() + others.cols());
     both << taken, others;
     const Eigen::MatrixXd parts =
-        both.completeOrthogonalDecomposition().solve(rest.transpose()).bottomRows(others.cols());
+        least_squares(both, Eigen::MatrixXd(rest.transpose())).bottomRows(others.cols());
     RowMatrix within = (others * parts).transpose();
     for (Index i = 0; i < within.rows(); ++i) {
         const double far = longest_in(rest, i);
         within.row(i) *= far * far;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(within.transpose() * within));
-    return others.completeOrthogonalDecomposition().solve(
-        Eigen::VectorXd(solver.eigenvectors().rightCols(1)));
+    const SymmetricEigen directions = symmetric_eigen(within.transpose() * within);
+    return least_squares(others, Eigen::VectorXd(directions.vectors.rightCols(1)));
 }
 
 int rounded_weight(double weight) {
@@ -130,7 +128,7 @@ BlendWeights needed_blends(const ConfigurationBasis& basis, const std::vector<in
         taken.leftCols(static_cast<Index>(shared.size())) = packed(basis.modes(Eigen::all, shared));
         taken.rightCols(weights.cols()) = packed(blended_modes(basis, weights));
         const RowMatrix rest =
-            wanted - (taken * taken.completeOrthogonalDecomposition().solve(wanted.transpose())).transpose();
+            wanted - (taken * least_squares(taken, Eigen::MatrixXd(wanted.transpose()))).transpose();
         if (longest_triple(rest) <= max_error_mm) break;
         weights.conservativeResize(Eigen::NoChange, weights.cols() + 1);
         weights.rightCols(1).setZero();

@@ -1,10 +1,11 @@
 #include "viapoints/stream_learn.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -57,7 +58,7 @@ Eigen::VectorXd solved(const Normal& normal, const Eigen::VectorXd& prior, doubl
     Eigen::MatrixXd a = normal.a;
     const Eigen::VectorXd ridge = strength * typical;
     a.diagonal() += ridge;
-    return a.ldlt().solve(normal.b + ridge.cwiseProduct(prior));
+    return solve_positive(a, Eigen::VectorXd(normal.b + ridge.cwiseProduct(prior)));
 }
 
 void learn_weights(const std::vector<QuantisedSegment>& segments, int j, StreamStatistics& statistics) {

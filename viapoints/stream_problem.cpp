@@ -1,9 +1,9 @@
 #include "viapoints/stream_problem.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -20,10 +20,10 @@ std::int32_t rounded(double value) {
         std::clamp(std::round(value), -1.0 * kLargestValue, 1.0 * kLargestValue));
 }
 
-Eigen::MatrixXd least_squares(const RowMatrix& response, const RowMatrix& wanted, double steady) {
+Eigen::MatrixXd ridge_solution(const RowMatrix& response, const RowMatrix& wanted, double steady) {
     Eigen::MatrixXd normal = response.transpose() * response;
     normal.diagonal().array() += steady;
-    return normal.ldlt().solve(response.transpose() * wanted);
+    return solve_positive(normal, Eigen::MatrixXd(response.transpose() * wanted));
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ SearchProblem problem_of(const SegmentTarget& target, const Eigen::MatrixXd& mod
                 (target.points.col(3 * i + a).transpose() / options.bound_mm).cast<float>();
         }
     }
-    problem.components = modes.completeOrthogonalDecomposition().solve(target.points.transpose()).transpose();
+    problem.components = least_squares(modes, Eigen::MatrixXd(target.points.transpose())).transpose();
     return problem;
 }
 
@@ -95,7 +95,7 @@ void fit_between(const SearchProblem& problem, const std::vector<int>& ticks, st
     }
     const RowMatrix rest =
         problem.components.middleRows(from, to - from) - response.middleRows(from, to - from) * others;
-    const Eigen::MatrixXd x = least_squares(response.block(from, b, to - from, n), rest, kSteady);
+    const Eigen::MatrixXd x = ridge_solution(response.block(from, b, to - from, n), rest, kSteady);
     for (Index j = 0; j < n; ++j)
         for (Index k = 0; k < x.cols(); ++k)
             values[begin + static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] =
@@ -107,7 +107,7 @@ bool hopeless(const SearchProblem& problem, const std::vector<int>& ticks) {
     for (int t = ticks.front() + 1; t < ticks.back(); ++t) all.push_back(t);
     all.insert(all.end(), ticks.begin() + static_cast<std::ptrdiff_t>(inner_end(ticks)), ticks.end());
     const RowMatrix response = control_weights(all, problem.tick);
-    const RowMatrix drawn = response * least_squares(response, problem.components, 1e-6);
+    const RowMatrix drawn = response * ridge_solution(response, problem.components, 1e-6);
     const Eigen::MatrixXf off =
         problem.mode_rows * (drawn / problem.step).transpose().cast<float>() - problem.wanted;
     return off.cwiseAbs().maxCoeff() > kHopeless;

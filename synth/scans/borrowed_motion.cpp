@@ -1,11 +1,11 @@
 #include "synth/scans/borrowed_motion.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "base/decompositions.hpp"
 #include "facemodel/deformation_transfer.hpp"
 #include "facemodel/estimator.hpp"
 #include "facemodel/lips.hpp"
@@ -33,12 +33,6 @@ bool on_surface(const FacePart& part) {
 
 Contour row_of(const LipGrid& lips, const Nodes& nodes, int row) {
     return nodes.middleRows(lips.node(row, 0), LipGrid::kColumns);
-}
-
-RowVector3d middle_of(const Nodes& nodes, const NodeLoop& loop) {
-    RowVector3d sum = RowVector3d::Zero();
-    for (const int node : loop) sum += nodes.row(node);
-    return sum / static_cast<double>(loop.size());
 }
 
 class Borrowing {
@@ -76,7 +70,7 @@ class Borrowing {
   private:
     // The whole head shifted so that the lips meet before the lender's teeth.
     void seat_mouth() {
-        shift_ = (middle_of(face_.rest, lender_.lip_inner) - middle_of(rest_, lender_.lip_inner)).transpose();
+        shift_ = middle_of(face_.rest, lender_.lip_inner) - middle_of(rest_, lender_.lip_inner);
         rest_.rowwise() += shift_.transpose();
         for (const FacePart& part : face_.parts) {
             if (!on_surface(part))
@@ -107,7 +101,8 @@ class Borrowing {
         std::ranges::stable_sort(
             near, {}, [&](int node) { return (face_.rest.row(node) - face_.rest.row(lash)).norm(); });
         near.resize(3);
-        const RowVector3d from = middle_of(face_.rest, near), to = middle_of(rest_, near);
+        const RowVector3d from = middle_of(face_.rest, near).transpose(),
+                          to = middle_of(rest_, near).transpose();
         rest_.row(lash) = to + size * (face_.rest.row(lash) - from);
     }
 
@@ -305,8 +300,7 @@ class Borrowing {
         ConfigurationBasis basis;
         basis.mean = to.rest + ratio.cwiseProduct(codex.basis.mean - from.rest);
         const Eigen::MatrixXd moved = ratio.asDiagonal() * codex.basis.modes;
-        const Eigen::HouseholderQR<Eigen::MatrixXd> factors(moved);
-        basis.modes = factors.householderQ() * Eigen::MatrixXd::Identity(moved.rows(), moved.cols());
+        basis.modes = thin_qr(moved).q;
         const Eigen::MatrixXd change = basis.modes.transpose() * moved;
         auto recitations = codex.recitations;
         for (Recitation& recitation : recitations) {

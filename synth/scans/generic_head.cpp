@@ -10,6 +10,13 @@
 #include "facemodel/remesh.hpp"
 
 namespace viaface {
+
+Eigen::Vector3d middle_of(const Nodes& nodes, const NodeLoop& loop) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int node : loop) sum += nodes.row(node).transpose();
+    return sum / static_cast<double>(loop.size());
+}
+
 namespace {
 
 using Eigen::Vector3d;
@@ -24,12 +31,6 @@ std::vector<Triangle> welded_surface(const Face& face) {
         }
     }
     return surface;
-}
-
-Vector3d middle_of(const Nodes& nodes, const NodeLoop& loop) {
-    Vector3d sum = Vector3d::Zero();
-    for (const int node : loop) sum += nodes.row(node).transpose();
-    return sum / static_cast<double>(loop.size());
 }
 
 double extent_of(const Nodes& nodes, const NodeLoop& loop) {

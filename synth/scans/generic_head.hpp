@@ -28,6 +28,8 @@ struct GenericHead {
     Nodes posture(Eigen::Index k) const;
 };
 
+Eigen::Vector3d middle_of(const Nodes& nodes, const NodeLoop& loop);
+
 // `nodes` with the generic eyes moved and sized with the lids' openings.
 Nodes eyes_seated(const GenericHead& generic, Nodes nodes);
 // How much larger the opening of the lids is than the generic one, and their middles there and here.

@@ -11,6 +11,7 @@
 #include "facemodel/gltf.hpp"
 #include "synth/scans/adaptation_to_scan.hpp"
 #include "synth/scans/scan_paint.hpp"
+#include "synth/talker/talker.hpp"
 #include "viapoints/codex_file.hpp"
 
 namespace viaface {
@@ -50,34 +51,26 @@ nlohmann::json postures_of(const BorrowedTalker& talker) {
 nlohmann::json description(const std::string& name, const AdaptedHead& head, const ScanFolder& scans,
                            const BorrowedTalker& talker) {
     const Eigen::Vector3d& s = talker.motion_scale;
-    return {{"name", name},
-            {"summary", "made of a scan; the motion is borrowed from the built-in talker"},
-            {"format", 1},
-            {"units",
-             "mm and s, head frame: x to the talker's left, y up, z forward, origin midway between the upper "
-             "incisors' edges at rest"},
-            {"layout", "viapoints/LAYOUT.md, 38 points"},
-            {"language", "en"},
-            {"files", {{"face", "face.glb"}, {"estimators", "estimators.bin"}, {"codex", "codex.via"}}},
-            {"provenance",
-             {{"shape", "The generic head adapted to the scan " + scans.files.at("neutral") + "."},
-              {"textures", head.scan.painted() ? "The scan's colours; painted by procedure where it has none."
-                                               : "Painted by procedure; no photograph."},
-              {"motion",
-               "Borrowed: performed by a gestural model for the built-in talker, carried to this face by "
-               "deformation transfer and scaled; not measured from a person."},
-              {"postures", postures_of(talker)},
-              {"motion_scale", {s.x(), s.y(), s.z()}},
-              {"completed", head.completed},
-              {"remarks", head.remarks}}},
-            {"fit",
-             {{"drawn_to_scan", as_json(head.to_scan)},
-              {"scan_to_drawn", as_json(head.from_surface)},
-              {"lips_drawn_to_scan", as_json(head.lips_to_scan)},
-              {"lips_scan_to_drawn", as_json(head.lips_from_surface)},
-              {"turned_triangles", head.flipped},
-              {"lip_corners_above_generic_mm", head.smile}}},
-            {"licence", "as the scan's"}};
+    auto told = talker_description(name, "made of a scan; the motion is borrowed from the built-in talker");
+    told["provenance"] = {
+        {"shape", "The generic head adapted to the scan " + scans.files.at("neutral") + "."},
+        {"textures", head.scan.painted() ? "The scan's colours; painted by procedure where it has none."
+                                         : "Painted by procedure; no photograph."},
+        {"motion",
+         "Borrowed: performed by a gestural model for the built-in talker, carried to this face by "
+         "deformation transfer and scaled; not measured from a person."},
+        {"postures", postures_of(talker)},
+        {"motion_scale", {s.x(), s.y(), s.z()}},
+        {"completed", head.completed},
+        {"remarks", head.remarks}};
+    told["fit"] = {{"drawn_to_scan", as_json(head.to_scan)},
+                   {"scan_to_drawn", as_json(head.from_surface)},
+                   {"lips_drawn_to_scan", as_json(head.lips_to_scan)},
+                   {"lips_scan_to_drawn", as_json(head.lips_from_surface)},
+                   {"turned_triangles", head.flipped},
+                   {"lip_corners_above_generic_mm", head.smile}};
+    told["licence"] = "as the scan's";
+    return told;
 }
 
 int make(const fs::path& folder, const fs::path& output, const fs::path& lender_folder) {

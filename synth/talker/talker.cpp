@@ -37,4 +37,16 @@ Talker load_talker(const fs::path& folder) {
     return {std::move(description), std::move(face), read_codex(bytes_of("codex.via")), std::move(poser)};
 }
 
+nlohmann::json talker_description(const std::string& name, const std::string& summary) {
+    return {{"name", name},
+            {"summary", summary},
+            {"format", 1},
+            {"units",
+             "mm and s, head frame: x to the talker's left, y up, z forward, origin midway between the upper "
+             "incisors' edges at rest"},
+            {"layout", "viapoints/LAYOUT.md, 38 points"},
+            {"language", "en"},
+            {"files", {{"face", "face.glb"}, {"estimators", "estimators.bin"}, {"codex", "codex.via"}}}};
+}
+
 }  // namespace viaface

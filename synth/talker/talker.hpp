@@ -27,4 +27,7 @@ struct Talker {
 nlohmann::json read_talker_json(const std::filesystem::path& folder);
 Talker load_talker(const std::filesystem::path& folder);
 
+// What talker.json says of every talker: how its files are to be read.
+nlohmann::json talker_description(const std::string& name, const std::string& summary);
+
 }  // namespace viaface

@@ -1,6 +1,6 @@
 #include "synth/training/follow_modes.hpp"
 
-#include <Eigen/Cholesky>
+#include "base/decompositions.hpp"
 
 namespace viaface {
 
@@ -14,12 +14,12 @@ void follow_modes(Face& face, const HeadToFace& source, const PoseTraining& trai
     }
     shapes.colwise() -= shapes.rowwise().mean().eval();
     const Eigen::MatrixXd& c = training.coefficients;  // their mean over the postures is 0
-    const Eigen::LDLT<Eigen::MatrixXd> normal(c * c.transpose());
+    const Eigen::MatrixXd normal = c * c.transpose();
     for (const FacePart& part : face.parts) {
         if (part.drive == Drive::kModes) continue;
         const auto rows = shapes.middleRows(3 * part.first_node, 3 * part.nodes);
         face.modes.middleRows(3 * part.first_node, 3 * part.nodes) =
-            normal.solve(c * rows.transpose()).transpose();
+            solve_positive(normal, Eigen::MatrixXd(c * rows.transpose())).transpose();
     }
 }
 

@@ -11,6 +11,7 @@
 #include "base/whole_file.hpp"
 #include "facemodel/gltf.hpp"
 #include "synth/learn/sentences.hpp"
+#include "synth/talker/talker.hpp"
 #include "synth/training/bake.hpp"
 #include "synth/training/corpus.hpp"
 #include "synth/training/follow_modes.hpp"
@@ -41,29 +42,23 @@ constexpr const char* kStreamProvenance =
 void tell(const std::string& what) { std::fprintf(stderr, "viaface: %s\n", what.c_str()); }
 
 nlohmann::json description(const Person& person) {
-    return {{"name", person.name},
-            {"summary", person.summary + "; the motion is performed by a model, not measured from a person"},
-            {"voice", person.voice},
-            {"format", 1},
-            {"units",
-             "mm and s, head frame: x to the talker's left, y up, z forward, origin midway between the upper "
-             "incisors' edges at rest"},
-            {"layout", "viapoints/LAYOUT.md, 38 points"},
-            {"language", "en"},
-            {"files", {{"face", "face.glb"}, {"estimators", "estimators.bin"}, {"codex", "codex.via"}}},
-            {"provenance",
-             {{"shape",
-               "Computed from posed scans of the ICT Face Model Light (ICT-FaceKit) on meshes of this "
-               "project's own. No scan of one person."},
-              {"textures", "Painted by procedure; no photograph."},
-              {"motion",
-               "Performed by a gestural model for the timing of a speech synthesiser (Flite, voice rms); not "
-               "measured from a person."},
-              {"corpus", "Sentences written for this project, and strings of phones made by rule."}}},
-            {"licence", "MIT"},
-            {"notice",
-             "Copyright (c) 2020 USC Institute for Creative Technologies (ICT Face Model Light, MIT "
-             "licence); the notice stands whole in NOTICE."}};
+    auto told = talker_description(
+        person.name, person.summary + "; the motion is performed by a model, not measured from a person");
+    told["voice"] = person.voice;
+    told["provenance"] = {
+        {"shape",
+         "Computed from posed scans of the ICT Face Model Light (ICT-FaceKit) on meshes of this "
+         "project's own. No scan of one person."},
+        {"textures", "Painted by procedure; no photograph."},
+        {"motion",
+         "Performed by a gestural model for the timing of a speech synthesiser (Flite, voice rms); not "
+         "measured from a person."},
+        {"corpus", "Sentences written for this project, and strings of phones made by rule."}};
+    told["licence"] = "MIT";
+    told["notice"] =
+        "Copyright (c) 2020 USC Institute for Creative Technologies (ICT Face Model Light, MIT "
+        "licence); the notice stands whole in NOTICE.";
+    return told;
 }
 
 Landmarks landmarks_of(const HeadToFace& source) {

@@ -1,10 +1,11 @@
 #include "synth/training/report.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "base/decompositions.hpp"
 
 namespace viaface {
 namespace {
@@ -90,8 +91,7 @@ struct FaceModel {
 
 double condition_of(const GenericMesh& mesh, const FaceModel& model) {
     const MatrixXd markers = markers_of(mesh, model.shapes);
-    const VectorXd s =
-        Eigen::JacobiSVD<MatrixXd>(markers.colwise() - markers.rowwise().mean()).singularValues();
+    const VectorXd s = thin_svd(markers.colwise() - markers.rowwise().mean()).s;
     return s[0] / s[model.estimator.rank() - 1];
 }
 

@@ -3,11 +3,11 @@
 // is far below contact there only.
 #pragma once
 
-#include <Eigen/QR>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "base/decompositions.hpp"
 #include "viapoints/codex_cut.hpp"
 #include "viapoints/spline.hpp"
 
@@ -38,9 +38,7 @@ inline ConfigurationBasis lip_basis() {
     raw(3 * kInnerTop + 1, 0) = 0.3;
     for (const Point p : {kInnerBottom, kBorderBottom, kLipBottom, kChin, kLowerIncisor})
         raw(3 * p + 1, 0) = -1;
-    const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(raw).householderQ() *
-                              Eigen::MatrixXd::Identity(kCoordinates, kModes);
-    ConfigurationBasis basis{Configuration::Zero(), q};
+    ConfigurationBasis basis{Configuration::Zero(), thin_qr(raw).q};
     if (basis.modes(3 * kInnerTop + 1, 0) < 0) basis.modes.col(0) *= -1;
     return basis;
 }

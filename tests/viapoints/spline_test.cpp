@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.hpp"
 #include "tests/viapoints/smooth_motion.hpp"
 #include "viapoints/hermite.hpp"
 
@@ -133,7 +134,7 @@ double brute_force_cost(const ViaPointTrack& track, const MinimumJerkSystem::Der
             if (i == j) hessian(i, i) = (cost(2 * unit(i)) + cost(-2 * unit(i)) - 2 * cost(zero)) / 4;
         }
     }
-    return cost(-hessian.ldlt().solve(gradient));
+    return cost(-solve_positive(hessian, gradient));
 }
 
 // Gaps of one second keep the dense problem well conditioned.
