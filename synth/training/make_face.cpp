@@ -48,21 +48,25 @@ Uvs uvs_in(const std::vector<Vector2d>& places, double left, double width) {
     return uvs;
 }
 
+// Textures repeat: what ends at their rim would show the colour of the other end.
+constexpr double kOffRim = 0.03;
+float off_rim(double place) { return static_cast<float>(kOffRim + (1 - 2 * kOffRim) * place); }
+
 Uvs lip_uvs() {
     Uvs uvs(LipGrid::kRows * LipGrid::kColumns, 2);
     for (int i = 0; i < uvs.rows(); ++i) {
         uvs.row(i) << static_cast<float>(i % LipGrid::kColumns) / LipGrid::kColumns,
-            static_cast<float>(i / LipGrid::kColumns) / (LipGrid::kRows - 1);
+            off_rim(i / LipGrid::kColumns / (LipGrid::kRows - 1.0));
     }
     return uvs;
 }
 
-// A ring's u goes up one side and down the other, 0 at column 0 and 1 half way round, so that no triangle
-// spans the whole texture where the ring closes.
+// A ring's u goes up one side and down the other, least at column 0 and most half way round, so that no
+// triangle spans the whole texture where the ring closes.
 void fold_round(Uvs& uvs, int columns, int rows) {
     for (int i = 0; i < columns * rows; ++i) {
         const double u = static_cast<double>(i % columns) / columns;
-        uvs(i, 0) = static_cast<float>(u < 0.5 ? 2 * u : 2 - 2 * u);
+        uvs(i, 0) = off_rim(u < 0.5 ? 2 * u : 2 - 2 * u);
     }
 }
 

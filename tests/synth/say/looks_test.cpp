@@ -80,6 +80,17 @@ TEST_P(BuiltInLooks, NoPartOfAnEyeIsBlackForWantOfLight) {
     EXPECT_GT(darkest, 0.15 * 255);
 }
 
+// Textures repeat, so that a lip at their rim would wear a line of the other lip's colour.
+TEST_P(BuiltInLooks, LipsKeepOffTheRimOfTheirTexture) {
+    const Face face = talker().face;
+    const FacePart& lips = part_named(face, "lips");
+    const auto places = face.uvs.middleRows(lips.first_node, lips.nodes);
+    const float texel =
+        1.0f / static_cast<float>(face.surfaces[std::size_t(Material::kLips)].base_colour.width);
+    EXPECT_GT(places.minCoeff(), 8 * texel);
+    EXPECT_LT(places.maxCoeff(), 1 - 8 * texel);
+}
+
 // Longest of the edges that are chosen, mm.
 template <class Chosen>
 double longest_edge(const FacePart& part, const Nodes& rest, Chosen chosen) {
