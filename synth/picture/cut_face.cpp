@@ -36,7 +36,7 @@ class Cutter {
 
     // The same triangle, its one node on the given side of the cut first.
     Triangle turned_to(Triangle t, bool side) const {
-        while (stays(t[0]) != side || stays(t[1]) == side) std::ranges::rotate(t, t.begin() + 1);
+        while (stays(t[0]) != side || stays(t[1]) == side) std::rotate(t.begin(), t.begin() + 1, t.end());
         return t;
     }
 
