@@ -8,6 +8,7 @@
 namespace viaface {
 
 inline constexpr int kMostStreamComponents = 114;
+inline constexpr double kBasisShare = 0.35;  // of a bound, that the modes in use may leave
 
 // The basis rounded to what a stream holds; its modes are orthonormal to 1e-4 only.
 ConfigurationBasis stored_basis(const ConfigurationBasis& basis);

@@ -4,9 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "viapoints/measured.hpp"
+#include "viapoints/stream_basis.hpp"
 
 namespace viaface {
 namespace {
@@ -67,6 +69,23 @@ Front code_front(Coder& coder, Front front, std::uint32_t longest) {
     else
         front.length = longest - coder.even(left, std::bit_width(fifth));
     return front;
+}
+
+ViaValues of_modes(const ViaValues& values, const std::vector<int>& modes) {
+    ViaValues few;
+    for (const int mode : modes)
+        if (!values.empty()) few.push_back(values[static_cast<std::size_t>(mode)]);
+    return few;
+}
+
+// Modes that took no part stay 0.
+QuantisedSegment in_all_modes(QuantisedSegment segment, const std::vector<int>& modes, std::size_t all) {
+    for (ViaValues& values : segment.values) {
+        ViaValues whole(all);
+        for (std::size_t i = 0; i < modes.size(); ++i) whole[static_cast<std::size_t>(modes[i])] = values[i];
+        values = std::move(whole);
+    }
+    return segment;
 }
 
 }  // namespace
@@ -131,16 +150,39 @@ ViaValues SegmentEncoder::first_values(int finer) const {
     return values;
 }
 
-SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const {
+// Those that the segment needs or begins with, or all.
+std::vector<int> SegmentEncoder::modes_for(const Motion& motion, const CutSegment& cut) const {
+    std::vector<int> modes(static_cast<std::size_t>(tools_.basis.size()));
+    std::iota(modes.begin(), modes.end(), 0);
+    if (!effort_.few_modes || cut.samples == 0) return modes;
+    const RowMatrix positions =
+        motion.positions.middleRows(static_cast<Index>(cut.first_sample), static_cast<Index>(cut.samples));
+    std::vector<int> few =
+        needed_modes(tools_.basis, tools_.head.points, positions, kBasisShare * tools_.head.bound_mm);
+    if (few.empty()) few.push_back(0);
+    const ViaValues first = first_values(last_.finer);
+    std::erase_if(modes, [&](int mode) {
+        return !std::binary_search(few.begin(), few.end(), mode) &&
+               (first.empty() || first[static_cast<std::size_t>(mode)] == 0);
+    });
+    return modes;
+}
+
+SegmentVia SegmentEncoder::searched(const Motion& motion, const CutSegment& cut,
+                                    const std::vector<int>& modes, int finer, Ends ends) const {
     SegmentVia found{{}, finer};
-    SearchOptions options{tools_.head.bound_mm, step_of(tools_.head, finer), rounds_};
+    SearchOptions options{tools_.head.bound_mm, step_of(tools_.head, finer), effort_.rounds};
     const std::vector<int> ticks =
-        first_ticks(tools_.head, cut, ends.first_moves, ends.last_moves, first_rate_);
+        first_ticks(tools_.head, cut, ends.first_moves, ends.last_moves, effort_.first_rate);
+    const StreamStatistics statistics =
+        with_components(tools_.statistics, modes, static_cast<int>(modes.size()));
+    const Eigen::MatrixXd packed = packed_modes(tools_)(Eigen::all, modes);
+    const ViaValues first = of_modes(first_values(finer), modes);
     std::size_t stride = stride_of(motion, cut);
     for (int tries = 0;; ++tries) {
         const SegmentTarget target = target_of(motion, tools_.head, tools_.basis.mean, cut, stride);
-        found.via = search_segment(target, packed_modes(tools_), tools_.statistics, ticks,
-                                   first_values(finer), options);
+        found.via = in_all_modes(search_segment(target, packed, statistics, ticks, first, options), modes,
+                                 static_cast<std::size_t>(tools_.basis.size()));
         if (stride == 1 || segment_error(tools_, found, motion, cut).largest_mm <= tools_.head.bound_mm)
             return found;
         options.bound_mm *= 0.97;
@@ -163,8 +205,9 @@ SegmentVia SegmentEncoder::encode(const Motion& motion, const CutSegment& cut) {
     const Ends planned{started_ ? moves_last(last_.via.tick) : moves(cut.first_speed), moves(cut.last_speed)};
     const int first = coarsest();
     double least = std::numeric_limits<double>::infinity();
+    std::vector<int> modes = modes_for(motion, cut);
     const auto holds = [&](int finer, Ends ends, SegmentVia& found) {
-        found = searched(motion, cut, finer, ends);
+        found = searched(motion, cut, modes, finer, ends);
         const double error =
             segment_error(tools_, segment_in(tools_, segment_content(tools_, found)), motion, cut).largest_mm;
         least = std::min(least, error);
@@ -172,6 +215,11 @@ SegmentVia SegmentEncoder::encode(const Motion& motion, const CutSegment& cut) {
     };
     SegmentVia found;
     bool held = holds(first, planned, found);
+    if (!held && modes.size() < static_cast<std::size_t>(tools_.basis.size())) {
+        modes.resize(static_cast<std::size_t>(tools_.basis.size()));
+        std::iota(modes.begin(), modes.end(), 0);
+        held = holds(first, planned, found);
+    }
     for (int finer = first; !held && finer <= kMostFiner; ++finer) held = holds(finer, {true, true}, found);
     if (!held)
         throw InputError("max_error_mm", std::to_string(tools_.head.bound_mm),

@@ -23,11 +23,17 @@ SegmentVia segment_in(const StreamTools& tools, std::span<const std::uint8_t> co
 inline constexpr double kFirstRate = 15;  // via points per second that a search starts from
 inline constexpr double kLiveRate = 7.5;  // likewise where time counts more than bits
 
+// How segments are searched for: whole, or where time counts more than bits.
+struct SegmentEffort {
+    int rounds = 2;
+    double first_rate = kFirstRate;
+    bool few_modes = false;  // only modes that a segment needs take part in it, the others stay 0
+};
+
 // Segment after segment of a motion, in order: each begins with what the one before ended with.
 class SegmentEncoder {
   public:
-    SegmentEncoder(const StreamTools& tools, int rounds, double first_rate = kFirstRate)
-        : tools_(tools), rounds_(rounds), first_rate_(first_rate) {}
+    SegmentEncoder(const StreamTools& tools, const SegmentEffort& effort) : tools_(tools), effort_(effort) {}
 
     // InputError("max_error_mm", ...) when the bound cannot be held on the grid of ticks.
     SegmentVia encode(const Motion& motion, const CutSegment& cut);
@@ -36,13 +42,14 @@ class SegmentEncoder {
     struct Ends {
         bool first_moves, last_moves;
     };
-    SegmentVia searched(const Motion& motion, const CutSegment& cut, int finer, Ends ends) const;
+    std::vector<int> modes_for(const Motion& motion, const CutSegment& cut) const;
+    SegmentVia searched(const Motion& motion, const CutSegment& cut, const std::vector<int>& modes, int finer,
+                        Ends ends) const;
     int coarsest() const;  // the least `finer` at which the segment before ends on a whole step
     ViaValues first_values(int finer) const;
 
     const StreamTools& tools_;
-    int rounds_;
-    double first_rate_;
+    SegmentEffort effort_;
     bool started_ = false;
     SegmentVia last_;
 };

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "viapoints/measured.hpp"
+#include "viapoints/stream_basis.hpp"
 #include "viapoints/stream_cut.hpp"
 #include "viapoints/stream_learn.hpp"
 #include "viapoints/stream_segment.hpp"
@@ -17,7 +18,6 @@ using Eigen::Index;
 
 constexpr double kSyncSeconds = 10;
 constexpr int kTicksPerSecond = 30;
-constexpr double kBasisShare = 0.35;  // of a bound, that the modes of its table may leave
 constexpr Index kMostRows = 6000;     // of all motions, that a basis is made from
 constexpr Index kMostModes = 24;
 constexpr std::size_t kMostSegments = 30;  // that a table is learned from: the first of each motion
@@ -64,7 +64,7 @@ std::vector<QuantisedSegment> encoded(const std::vector<Motion>& motions, Stream
     std::vector<QuantisedSegment> segments;
     for (const Motion& motion : motions) {
         tools.head.start_s = motion.time_s.front();
-        SegmentEncoder encoder(tools, rounds);
+        SegmentEncoder encoder(tools, {.rounds = rounds});
         std::vector<CutSegment> cuts = cut_motion(motion, tools.head);
         cuts.resize(std::min(cuts.size(), kMostSegments / motions.size() + 1));
         for (const CutSegment& cut : cuts) {

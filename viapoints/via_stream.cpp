@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "viapoints/measured.hpp"
+#include "viapoints/stream_basis.hpp"
 #include "viapoints/stream_packets.hpp"
 #include "viapoints/stream_segment.hpp"
 #include "viapoints/via_chunks.hpp"
@@ -18,7 +19,6 @@ using Eigen::Index;
 constexpr int kTicksPerSecond = 30;
 constexpr int kMostTicksPerSecond = 240;
 constexpr double kStepPerBound = 5;   // where no statistics say otherwise
-constexpr double kBasisShare = 0.35;  // of the bound, that the basis may leave
 constexpr double kBitsOfMode = 0.7;   // per second, about
 constexpr std::size_t kMostSamples = 10'000'000;
 
@@ -102,7 +102,7 @@ StreamTools tools_for(const Motion& motion, const StreamModel* model, const Stre
 
 std::vector<SegmentVia> segments_of(const Motion& motion, const StreamTools& tools,
                                     const std::vector<CutSegment>& cuts, const StreamOptions& options) {
-    SegmentEncoder encoder(tools, options.rounds);
+    SegmentEncoder encoder(tools, {.rounds = options.rounds});
     std::vector<SegmentVia> segments;
     for (const CutSegment& cut : cuts) {
         options.before_segment();

@@ -37,7 +37,7 @@ LiveStreamEncoder::LiveStreamEncoder(const StreamModel& model, std::vector<int> 
                                      const LiveOptions& options)
     : options_(options),
       tools_(shared_tools(model, std::move(points), options.max_error_mm, all_modes(model))),
-      encoder_(tools_, options.rounds, kLiveRate) {
+      encoder_(tools_, {.rounds = options.rounds, .first_rate = kLiveRate, .few_modes = true}) {
     if (!(options.look_ahead_s >= 0.1 && options.look_ahead_s <= 10))
         throw InputError("look_ahead_s", std::to_string(options.look_ahead_s), "0.1 to 10");
     tools_.head.start_s = start_s;
