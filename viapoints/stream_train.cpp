@@ -18,7 +18,7 @@ using Eigen::Index;
 
 constexpr double kSyncSeconds = 10;
 constexpr int kTicksPerSecond = 30;
-constexpr Index kMostRows = 6000;     // of all motions, that a basis is made from
+constexpr Index kMostRows = 6000;  // of all motions, that a basis is made from
 constexpr Index kMostModes = 24;
 constexpr std::size_t kMostSegments = 30;  // that a table is learned from: the first of each motion
 

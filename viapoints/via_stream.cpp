@@ -18,8 +18,8 @@ using Eigen::Index;
 
 constexpr int kTicksPerSecond = 30;
 constexpr int kMostTicksPerSecond = 240;
-constexpr double kStepPerBound = 5;   // where no statistics say otherwise
-constexpr double kBitsOfMode = 0.7;   // per second, about
+constexpr double kStepPerBound = 5;  // where no statistics say otherwise
+constexpr double kBitsOfMode = 0.7;  // per second, about
 constexpr std::size_t kMostSamples = 10'000'000;
 
 // A bound as a float, and not above it.
