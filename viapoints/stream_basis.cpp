@@ -13,6 +13,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kModeOne = 32767;
+constexpr double kIndependent = 0.02;  // of the square of a mode of length 1
 
 double rounded_entry(double entry) {
     return std::clamp(std::round(entry * kModeOne), -kModeOne, kModeOne) / kModeOne;
@@ -123,6 +124,33 @@ ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::ve
     return more;
 }
 
+bool ReachedDirections::leaves(const Eigen::VectorXd& mode) const {
+    return beyond(mode).squaredNorm() > kIndependent;
+}
+
+void ReachedDirections::add(const Eigen::VectorXd& mode) {
+    const Eigen::VectorXd direction = beyond(mode).normalized();
+    directions_.conservativeResize(Eigen::NoChange, directions_.cols() + 1);
+    directions_.rightCols(1) = direction;
+}
+
+Eigen::VectorXd ReachedDirections::beyond(const Eigen::VectorXd& mode) const {
+    return mode - directions_ * (directions_.transpose() * mode);
+}
+
+std::vector<int> independent_modes(const ConfigurationBasis& basis, const std::vector<int>& points,
+                                   int count) {
+    const Eigen::MatrixXd packed = coordinates_of(basis.modes.transpose(), points);
+    ReachedDirections reached(packed.cols());
+    std::vector<int> modes;
+    for (int i = 0; i < count; ++i) {
+        if (!reached.leaves(packed.row(i).transpose())) continue;
+        reached.add(packed.row(i).transpose());
+        modes.push_back(i);
+    }
+    return modes;
+}
+
 std::vector<int> needed_modes(const ConfigurationBasis& basis, const std::vector<int>& points,
                               const RowMatrix& positions, double max_error_mm) {
     constexpr Index kMostRows = 2000;
@@ -132,14 +160,17 @@ std::vector<int> needed_modes(const ConfigurationBasis& basis, const std::vector
         return left_over({basis.mean, basis.modes(Eigen::all, modes)}, points, rows);
     };
     const Eigen::MatrixXd packed = coordinates_of(basis.modes.transpose(), points);
+    ReachedDirections reached(packed.cols());
     std::vector<int> modes;
     for (RowMatrix rest = left(modes);
          longest_triple(rest) > max_error_mm && modes.size() < kMostStreamComponents; rest = left(modes)) {
         Eigen::VectorXd taken = (packed * rest.transpose()).rowwise().squaredNorm().array() /
                                 packed.rowwise().squaredNorm().array();
-        for (const int used : modes) taken[used] = -1;
+        for (Index i = 0; i < taken.size(); ++i)
+            if (!reached.leaves(packed.row(i).transpose())) taken[i] = -1;
         Index best = 0;
         if (taken.size() == 0 || taken.maxCoeff(&best) <= 0) break;
+        reached.add(packed.row(best).transpose());
         modes.insert(std::upper_bound(modes.begin(), modes.end(), static_cast<int>(best)),
                      static_cast<int>(best));
     }

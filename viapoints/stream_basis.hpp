@@ -30,9 +30,28 @@ RowMatrix fitted_components(const ConfigurationBasis& basis, const std::vector<i
 ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::vector<int>& points,
                                   const RowMatrix& positions, double max_error_mm);
 
-// Few modes of the basis, rising, that leave at most max_error_mm at `points`, or as many as there are: what
-// is left is filled by the mode that takes most of it, then those go again that can be spared, the last
-// first.
+// What modes reach at some points. A mode that is seen there by less than a fiftieth of its square beyond
+// what others reach is not independent of them: values of modes that nearly cancel each other, or hardly
+// show, grow without end.
+class ReachedDirections {
+  public:
+    explicit ReachedDirections(Eigen::Index coordinates) : directions_(coordinates, 0) {}
+    bool leaves(const Eigen::VectorXd& mode) const;  // whether it is independent of those added
+    void add(const Eigen::VectorXd& mode);
+
+  private:
+    Eigen::VectorXd beyond(const Eigen::VectorXd& mode) const;
+
+    Eigen::MatrixXd directions_;  // orthonormal columns
+};
+
+// The first `count` modes of the basis without those that are not independent of the ones before at `points`.
+std::vector<int> independent_modes(const ConfigurationBasis& basis, const std::vector<int>& points,
+                                   int count);
+
+// Few modes of the basis, independent at `points`, rising, that leave at most max_error_mm
+// there, or as many as there are: what is left is filled by the mode that takes most of it, then those go
+// again that can be spared, the last first.
 std::vector<int> needed_modes(const ConfigurationBasis& basis, const std::vector<int>& points,
                               const RowMatrix& positions, double max_error_mm);
 

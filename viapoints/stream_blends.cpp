@@ -122,17 +122,23 @@ BlendWeights needed_blends(const ConfigurationBasis& basis, const std::vector<in
     const Eigen::MatrixXd other_modes = packed(basis.modes(Eigen::all, others));
     const RowMatrix wanted =
         coordinates_of(positions, points).rowwise() - coordinates_of(basis.mean.transpose(), points).row(0);
+    Eigen::MatrixXd taken = packed(basis.modes(Eigen::all, shared));
+    ReachedDirections reached(taken.rows());
+    for (const auto& mode : taken.colwise()) reached.add(mode);
     BlendWeights weights(basis.size(), 0);
     while (weights.cols() < static_cast<Index>(others.size())) {
-        Eigen::MatrixXd taken(other_modes.rows(), static_cast<Index>(shared.size()) + weights.cols());
-        taken.leftCols(static_cast<Index>(shared.size())) = packed(basis.modes(Eigen::all, shared));
-        taken.rightCols(weights.cols()) = packed(blended_modes(basis, weights));
         const RowMatrix rest =
             wanted - (taken * least_squares(taken, Eigen::MatrixXd(wanted.transpose()))).transpose();
         if (longest_triple(rest) <= max_error_mm) break;
+        BlendWeights next = BlendWeights::Zero(basis.size(), 1);
+        next(others, 0) = rounded_weights(direction_of(rest, taken, other_modes));
+        const Eigen::VectorXd blend = packed(blended_modes(basis, next));
+        if (!reached.leaves(blend)) break;
+        reached.add(blend);
+        taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
+        taken.rightCols(1) = blend;
         weights.conservativeResize(Eigen::NoChange, weights.cols() + 1);
-        weights.rightCols(1).setZero();
-        weights(others, weights.cols() - 1) = rounded_weights(direction_of(rest, taken, other_modes));
+        weights.rightCols(1) = next;
     }
     return weights;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.hpp"
 #include "viapoints/measured.hpp"
@@ -55,47 +54,57 @@ std::uint32_t longest_segment(const StreamOptions& options, int ticks_per_s) {
     return static_cast<std::uint32_t>(std::max(1.0, std::floor(options.sync_s * ticks_per_s + 1e-9)));
 }
 
-// In modes of the model alone, or in those of its table and blends of the others: whichever costs less.
+// In modes of the motion's own alone.
+StreamTools own_tools(const Motion& motion, const std::vector<int>& points, double max_error_mm) {
+    StreamTools tools;
+    tools.head.points = points;
+    tools.head.bound_mm = stored_bound(max_error_mm);
+    tools.head.step_mm = static_cast<double>(static_cast<float>(kStepPerBound * max_error_mm));
+    tools.basis = extended_basis(mean_of(motion.positions), points, motion.positions,
+                                 kBasisShare * tools.head.bound_mm);
+    return tools;
+}
+
+// About what is told of the basis and in it.
+double bits_of(const StreamTools& tools, double seconds) {
+    return 8 * static_cast<double>(write_stream_head(tools).size()) +
+           kBitsOfMode * seconds * static_cast<double>(tools.basis.size());
+}
+
+// In modes of the model alone, or in those of its table and blends of the others, whichever costs less, with
+// the modes of the motion's own that either needs; where it needs some, in those alone if that costs less.
 StreamTools cheapest_tools(const StreamModel& model, const Motion& motion, const std::vector<int>& points,
                            double max_error_mm) {
-    const double share = kBasisShare * stored_bound(max_error_mm);
-    StreamTools alone =
-        shared_tools(model, points, max_error_mm, needed_modes(model.basis, points, motion.positions, share));
-    std::vector<int> known(
-        static_cast<std::size_t>(model.tables[static_cast<std::size_t>(alone.head.table)].components));
-    std::iota(known.begin(), known.end(), 0);
-    StreamTools blended = shared_tools(model, points, max_error_mm, known,
-                                       needed_blends(model.basis, known, points, motion.positions, share));
-    const double seconds = motion.time_s.back() - motion.time_s.front();
-    const auto bits = [&](const StreamTools& tools) {
-        return 8 * static_cast<double>(write_stream_head(tools).size()) +
-               kBitsOfMode * seconds * static_cast<double>(tools.basis.size());
+    const double share = kBasisShare * stored_bound(max_error_mm),
+                 seconds = motion.time_s.back() - motion.time_s.front();
+    const auto shared = [&](std::vector<int> modes, BlendWeights blends) {
+        StreamTools tools = shared_tools(model, points, max_error_mm, std::move(modes), std::move(blends));
+        tools.basis = extended_basis(tools.basis, points, motion.positions, share);
+        return tools;
     };
-    return bits(blended) < bits(alone) ? blended : alone;
+    const StreamTools alone = shared(needed_modes(model.basis, points, motion.positions, share), {});
+    const int components = model.tables[static_cast<std::size_t>(alone.head.table)].components;
+    const std::vector<int> known = independent_modes(model.basis, points, components);
+    const StreamTools blended =
+        shared(known, needed_blends(model.basis, known, points, motion.positions, share));
+    const StreamTools& best = bits_of(blended, seconds) < bits_of(alone, seconds) ? blended : alone;
+    const auto of_model = std::ssize(best.head.shared_modes) + best.head.blends.cols();
+    if (best.basis.size() == of_model) return best;
+    StreamTools own = own_tools(motion, points, max_error_mm);
+    return bits_of(own, seconds) < bits_of(best, seconds) ? own : best;
 }
 
 StreamTools tools_for(const Motion& motion, const StreamModel* model, const StreamOptions& options,
                       int ticks_per_s) {
-    StreamTools tools;
-    StreamHead& head = tools.head;
-    head.points = measured_points(motion.positions, "motion");
-    head.start_s = motion.time_s.front();
-    head.ticks_per_s = ticks_per_s;
-    head.longest_segment = longest_segment(options, ticks_per_s);
-    head.bound_mm = stored_bound(options.max_error_mm);
-    if (model) {
-        tools = cheapest_tools(*model, motion, head.points, options.max_error_mm);
-        head.start_s = motion.time_s.front();
-        head.ticks_per_s = ticks_per_s;
-        head.longest_segment = longest_segment(options, ticks_per_s);
-    } else {
-        tools.basis = mean_of(motion.positions);
-        head.step_mm = static_cast<double>(static_cast<float>(kStepPerBound * options.max_error_mm));
-    }
-    tools.basis = extended_basis(tools.basis, head.points, motion.positions, kBasisShare * head.bound_mm);
+    const std::vector<int> points = measured_points(motion.positions, "motion");
+    StreamTools tools = model ? cheapest_tools(*model, motion, points, options.max_error_mm)
+                              : own_tools(motion, points, options.max_error_mm);
+    tools.head.start_s = motion.time_s.front();
+    tools.head.ticks_per_s = ticks_per_s;
+    tools.head.longest_segment = longest_segment(options, ticks_per_s);
     if (tools.basis.size() == 0)
         tools.basis.modes =
-            Eigen::MatrixXd::Identity(kCoordinates, kCoordinates).middleCols(3 * head.points.front(), 1);
+            Eigen::MatrixXd::Identity(kCoordinates, kCoordinates).middleCols(3 * points.front(), 1);
     tools.statistics = with_components(tools.statistics, static_cast<int>(tools.basis.size()));
     return tools;
 }

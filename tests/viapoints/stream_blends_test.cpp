@@ -117,5 +117,30 @@ TEST(StreamBlends, ThoseOfModesThatTheModelLacksAreRefused) {
     EXPECT_THROW(read_stream_head(head, models), std::runtime_error);
 }
 
+// Modes 0 and 1 differ, and 2 shows, where no point is measured.
+ConfigurationBasis hardly_seen() {
+    const int unseen = kCoordinates - 1;
+    ConfigurationBasis basis = axes(4);
+    basis.modes.col(1) = basis.modes.col(0);
+    basis.modes(unseen, 1) = 0.1;
+    basis.modes.col(2) *= 0.05;
+    basis.modes(unseen, 2) = 1;
+    return basis;
+}
+
+TEST(StreamBasis, ModesInUseAreIndependentAtThePoints) {
+    const ConfigurationBasis basis = hardly_seen();
+    EXPECT_EQ(independent_modes(basis, held_points(), 4), (std::vector<int>{0, 3}));
+    EXPECT_EQ(independent_modes(basis, held_points(), 2), (std::vector<int>{0}));
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(3 * kHeldPoints);
+    weights << 1, 0, 1, 1, Eigen::VectorXd::Zero(3 * kHeldPoints - 4);
+    const Motion motion = along(weights, 2);
+    const std::vector<int> needed = needed_modes(basis, held_points(), motion.positions, 0.1);
+    ASSERT_EQ(needed.size(), 2u);
+    EXPECT_EQ(needed.back(), 3);
+    const ConfigurationBasis used{basis.mean, basis.modes(Eigen::all, needed)};
+    EXPECT_LE(fitted_components(used, held_points(), motion.positions).cwiseAbs().maxCoeff(), 10.001);
+}
+
 }  // namespace
 }  // namespace viaface
