@@ -153,7 +153,7 @@ void measure(EncodedStream& encoded, const Motion& motion, const StreamModel* mo
     const RowMatrix off = coordinates_of(decoded.positions(motion.time_s) - motion.positions, head.points);
     if (!off.allFinite()) throw std::runtime_error("the stream does not cover the motion");
     encoded.account.max_error_mm = longest_triple(off);
-    encoded.account.rms_error_mm = std::sqrt(off.squaredNorm() / static_cast<double>(off.size() / 3));
+    encoded.account.rms_error_mm = std::sqrt(off.squaredNorm() * 3 / static_cast<double>(off.size()));
 }
 
 // The header and the chunk HEAD.
