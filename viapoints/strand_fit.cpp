@@ -181,8 +181,8 @@ void NormalMatrix::solve(const FitStretch& stretch, int width, double* right, do
         const double* row = &factor_[at(i * kSupport)];
         double* found = control + (begin + i) * width;
         auto value = Lane<kWidth>::at(right + (begin + i) * width), scaled = Lane<kWidth>::zero();
-        for (int j = std::min(kSupport, n - i) - 1; j > 0;
-             --j)  // the one just found last: others need not wait
+        // the one just found comes last: the others need not wait for it
+        for (int j = std::min(kSupport, n - i) - 1; j > 0; --j)
             value.subtract(row[j], Lane<kWidth>::at(found + j * width));
         scaled.add(row[0], value);
         scaled.put(found);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,9 +32,9 @@ struct Strand {
     bool even(std::size_t first, std::size_t count) const;  // whether these samples all weigh 1
 };
 
-// Samples in a row, and the control points that may change for them.
 inline constexpr int kProducts = kSupport * (kSupport + 1) / 2 + 1;  // and a zero, for pairs
 
+// Samples in a row, and the control points that may change for them.
 struct FitStretch {
     std::size_t first_sample = 0;
     std::vector<QuinticRow> rows;                         // of the samples from the first on
