@@ -14,7 +14,7 @@ Bytes good_file() {
     const RowMatrix points = RowMatrix::Constant(2, 2, 1.5);
     const Recitation recitation = {{kPause, 0, true, 0.2, {0, 0.5}, points, 1},
                                    {3, 1, true, 0.1, {0.25, 0.75}, points, 0}};
-    return write_codex(make_codex(basis, Eigen::VectorXd::Zero(2), {recitation}, "fuzz"));
+    return write_codex(make_codex(basis, Eigen::VectorXd::Zero(2), {recitation}, "fuzz", 0.5));
 }
 
 Bytes with_one_content(std::size_t which, std::span<const std::uint8_t> content) {

@@ -5,11 +5,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "viapoints/spline.hpp"
-
 namespace viaface {
 namespace {
 
+constexpr double kMostScatter = 1000;         // mm
 constexpr double kClosestRecitedVia = 0.001;  // s: closer ones bring the spline's system near its limits
 
 void check(bool holds, const std::string& what) {
@@ -115,6 +114,8 @@ void check_shapes(const Codex& codex) {
     }
     check(codex.rest.size() == k, "the posture at rest is not [k]");
     const Eigen::MatrixXd gram = codex.basis.modes.transpose() * codex.basis.modes;
+    check(!codex.scatter_mm || (*codex.scatter_mm >= 0 && *codex.scatter_mm <= kMostScatter),
+          "the scatter is outside 0 to 1000 mm");
     check((gram - Eigen::MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff() < 1e-6,
           "the basis is not orthonormal");
     for (std::size_t r = 0; r < codex.recitations.size(); ++r) {
@@ -139,8 +140,8 @@ void append_units(const Recitation& recitation, std::size_t index, std::vector<T
 }
 
 // Position and velocity at every phone's begin, and at the end of the last. [phones + 1 x 2k]
-RowMatrix states_of(const Recitation& recitation, Eigen::Index k) {
-    const MinimumJerkSpline spline(track_of(recitation), SplineEnd::at_rest(), SplineEnd::at_rest());
+RowMatrix states_of(const Recitation& recitation, const MinimumJerkSpline& spline) {
+    const Eigen::Index k = spline.track().points.cols();
     RowMatrix states(static_cast<Eigen::Index>(recitation.size()) + 1, 2 * k);
     double time = 0;
     for (Eigen::Index i = 0; i < states.rows(); ++i) {
@@ -154,7 +155,11 @@ RowMatrix states_of(const Recitation& recitation, Eigen::Index k) {
 void set_joins(Codex& codex) {
     const Eigen::Index k = codex.basis.modes.cols();
     std::vector<RowMatrix> states;
-    for (const Recitation& recitation : codex.recitations) states.push_back(states_of(recitation, k));
+    for (const Recitation& recitation : codex.recitations) {
+        MinimumJerkSpline spline(track_of(recitation), SplineEnd::at_rest(), SplineEnd::at_rest());
+        states.push_back(states_of(recitation, spline));
+        if (codex.scatter_mm) codex.motions.push_back(std::move(spline));
+    }
     codex.begins.resize(std::ssize(codex.units), 2 * k);
     codex.ends.resize(std::ssize(codex.units), 2 * k);
     for (Eigen::Index u = 0; u < std::ssize(codex.units); ++u) {
@@ -209,8 +214,16 @@ ViaPointTrack track_of(const Recitation& recitation) {
 }
 
 Codex make_codex(ConfigurationBasis basis, Eigen::VectorXd rest, std::vector<Recitation> recitations,
-                 std::string provenance) {
-    Codex codex{std::move(basis), std::move(rest), std::move(recitations), std::move(provenance), {}, {}, {}};
+                 std::string provenance, std::optional<double> scatter_mm) {
+    Codex codex{std::move(basis),
+                std::move(rest),
+                std::move(recitations),
+                std::move(provenance),
+                scatter_mm,
+                {},
+                {},
+                {},
+                {}};
     check_shapes(codex);
     for (std::size_t r = 0; r < codex.recitations.size(); ++r)
         append_units(codex.recitations[r], r, codex.units);

@@ -12,11 +12,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "viapoints/basis.hpp"
 #include "viapoints/phones.hpp"
+#include "viapoints/spline.hpp"
 #include "viapoints/track.hpp"
 #include "viapoints/via_spacing.hpp"
 
@@ -61,18 +63,22 @@ struct Codex {
     Eigen::VectorXd rest;  // [k], components of the posture at rest
     std::vector<Recitation> recitations;
     std::string provenance;  // UTF-8: whose motion this is
+    // Given, a phone is spoken by all units that are like it (codex_consensus.hpp), not by the chosen one
+    // alone: mm, what units of the very same context differ by, beside the costs of codex_select.hpp.
+    std::optional<double> scatter_mm;
 
     // Made from the above by make_codex: the usable phones by centre, left, right, then recitation and place,
     // and the motion where each begins and ends: position in mm (components), then velocity in mm/s.
     std::vector<TriphoneUnit> units;
-    RowMatrix begins, ends;  // [units x 2k]
+    RowMatrix begins, ends;                  // [units x 2k]
+    std::vector<MinimumJerkSpline> motions;  // of the recitations, where there is a scatter
 };
 
 // The shape checked (std::invalid_argument says what is wrong), the units sorted and their joins computed
 // from the spline of each recitation. The basis has to be orthonormal: distances of components are then
 // distances of points.
 Codex make_codex(ConfigurationBasis basis, Eigen::VectorXd rest, std::vector<Recitation> recitations,
-                 std::string provenance);
+                 std::string provenance, std::optional<double> scatter_mm = std::nullopt);
 
 inline const RecitedPhone& body_of(const Codex& codex, const TriphoneUnit& unit) {
     return codex.recitations[static_cast<std::size_t>(unit.recitation)][static_cast<std::size_t>(unit.place)];

@@ -19,7 +19,7 @@ const ViaChunk* find(const std::vector<ViaChunk>& chunks, std::string_view type)
     return found == chunks.end() ? nullptr : &*found;
 }
 
-// The content of one required chunk, all of it, by `take`.
+// The content of one chunk, all of it, by `take`.
 auto taken(const std::vector<ViaChunk>& chunks, std::string_view type, const auto& take) {
     const ViaChunk* chunk = find(chunks, type);
     if (!chunk) throw std::runtime_error("codex file: chunk " + std::string(type) + " is missing");
@@ -35,7 +35,7 @@ auto taken(const std::vector<ViaChunk>& chunks, std::string_view type, const aut
 }
 
 void check_types(const std::vector<ViaChunk>& chunks) {
-    constexpr std::array<std::string_view, 5> kKnown = {"LAYO", "PHON", "BASE", "RECI", "prov"};
+    constexpr std::array<std::string_view, 6> kKnown = {"LAYO", "PHON", "BASE", "RECI", "scat", "prov"};
     for (const ViaChunk& chunk : chunks) {
         const std::string where = "codex file: chunk " + std::string(chunk.type) + ", content from byte " +
                                   std::to_string(chunk.offset);
@@ -63,6 +63,11 @@ Bytes write_codex(const Codex& codex) {
     writer.add("PHON", put_phones());
     writer.add("BASE", put_basis(codex));
     writer.add("RECI", put_recitations(codex));
+    if (codex.scatter_mm) {
+        ByteWriter scatter;
+        scatter.put(*codex.scatter_mm);
+        writer.add("scat", scatter.bytes());
+    }
     const auto* text = reinterpret_cast<const std::uint8_t*>(codex.provenance.data());
     if (!codex.provenance.empty()) writer.add("prov", {text, codex.provenance.size()});
     return writer.finish();
@@ -77,11 +82,15 @@ Codex read_codex(std::span<const std::uint8_t> bytes) {
     auto recitations = taken(chunks, "RECI", [&](ByteReader& reader) {
         return take_recitations(reader, stored.rest.size(), ids);
     });
+    std::optional<double> scatter_mm;
+    if (find(chunks, "scat"))
+        scatter_mm = taken(chunks, "scat", [](ByteReader& reader) { return reader.get<double>(); });
     try {
         return make_codex(std::move(stored.basis), std::move(stored.rest), std::move(recitations),
-                          provenance_in(chunks));
+                          provenance_in(chunks), scatter_mm);
     } catch (const std::invalid_argument&) {
-        std::throw_with_nested(std::runtime_error("codex file: chunks BASE and RECI do not make a codex"));
+        std::throw_with_nested(
+            std::runtime_error("codex file: chunks BASE, RECI and scat do not make a codex"));
     }
 }
 

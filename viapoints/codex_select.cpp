@@ -27,6 +27,21 @@ UnitRange units_of(const Codex& codex, const PhoneSlot& slot, const Key& key) {
             static_cast<std::int32_t>(last - units.begin())};
 }
 
+double own_cost(const PhoneContext& have, const PhoneContext& want, const SelectionCosts& costs) {
+    const double octaves = std::abs(std::log2(have.duration_s / want.duration_s));
+    return costs.octave * octaves + (have.stress != want.stress ? costs.stress : 0);
+}
+
+double side_cost(bool same, PhoneId outer_have, PhoneId outer_want, const SelectionCosts& costs) {
+    return (same ? 0 : costs.same_class) + (other_class(outer_have, outer_want) ? costs.outer_context : 0);
+}
+double left_cost(const PhoneContext& have, const PhoneContext& want, const SelectionCosts& costs) {
+    return side_cost(have.left == want.left, have.left2, want.left2, costs);
+}
+double right_cost(const PhoneContext& have, const PhoneContext& want, const SelectionCosts& costs) {
+    return side_cost(have.right == want.right, have.right2, want.right2, costs);
+}
+
 // The cheapest `limit`, in the order of cost, then of units.
 void keep_cheapest(std::vector<Candidate>& candidates, std::size_t limit) {
     const auto key = [](const Candidate& c) { return std::tie(c.cost, c.left, c.right); };
@@ -47,7 +62,7 @@ class Target {
         : codex_(codex),
           slot_(slot),
           costs_(costs),
-          duration_s_(static_cast<double>(slot.end - slot.begin) / sample_rate),
+          context_(context_of(slot, sample_rate)),
           same_centre_(units_of(codex, slot, [](const auto& of) { return of.centre; })) {}
 
     std::vector<Candidate> exact() const {
@@ -71,20 +86,13 @@ class Target {
             const TriphoneUnit& unit = codex_.units[static_cast<std::size_t>(i)];
             if (left && other_class(unit.left, slot_.left)) continue;
             if (right && other_class(unit.right, slot_.right)) continue;
-            double cost = own_cost(unit);
-            if (left) cost += side_cost(unit.left == slot_.left, unit.left2, slot_.left2);
-            if (right) cost += side_cost(unit.right == slot_.right, unit.right2, slot_.right2);
+            const PhoneContext have = context_of(codex_, unit);
+            double cost = own_cost(have, context_, costs_);
+            if (left) cost += left_cost(have, context_, costs_);
+            if (right) cost += right_cost(have, context_, costs_);
             found.push_back({i, i, level, cost});
         }
         return found;
-    }
-    double own_cost(const TriphoneUnit& unit) const {
-        const double octaves = std::abs(std::log2(body_of(codex_, unit).duration_s / duration_s_));
-        return costs_.octave * octaves + (unit.stress != slot_.stress ? costs_.stress : 0);
-    }
-    double side_cost(bool same, PhoneId outer_have, PhoneId outer_want) const {
-        return (same ? 0 : costs_.same_class) +
-               (other_class(outer_have, outer_want) ? costs_.outer_context : 0);
     }
     double nucleus_distance(std::int32_t left, std::int32_t right) const {
         const RecitedPhone &a = body_of(codex_, left), &b = body_of(codex_, right);
@@ -94,7 +102,7 @@ class Target {
     const Codex& codex_;
     const PhoneSlot& slot_;
     const SelectionCosts& costs_;
-    double duration_s_;
+    PhoneContext context_;
     UnitRange same_centre_;
 };
 
@@ -112,7 +120,8 @@ std::vector<Candidate> Target::standing_in() const {
         for (std::int32_t i = 0; i < std::ssize(codex_.units); ++i) {
             const TriphoneUnit& unit = codex_.units[static_cast<std::size_t>(i)];
             if (remoteness(unit.centre, slot_.centre) != remote) continue;
-            found.push_back({i, i, UnitLevel::kHalf, own_cost(unit) + remote * costs_.other_centre});
+            const double own = own_cost(context_of(codex_, unit), context_, costs_);
+            found.push_back({i, i, UnitLevel::kHalf, own + remote * costs_.other_centre});
         }
         if (!found.empty()) return found;
     }
@@ -123,11 +132,11 @@ std::vector<Candidate> Target::halves_for(const std::vector<Candidate>& units, b
     std::vector<Candidate> of_class, of_any;
     for (Candidate half : units) {
         const TriphoneUnit& unit = codex_.units[static_cast<std::size_t>(half.left)];
-        const PhoneId have = left ? unit.left : unit.right, want = left ? slot_.left : slot_.right;
-        half.cost += left ? side_cost(have == want, unit.left2, slot_.left2)
-                          : side_cost(have == want, unit.right2, slot_.right2);
-        if (other_class(have, want)) half.cost += costs_.other_context;
-        (other_class(have, want) ? of_any : of_class).push_back(half);
+        const PhoneContext have = context_of(codex_, unit);
+        half.cost += left ? left_cost(have, context_, costs_) : right_cost(have, context_, costs_);
+        const bool other = left ? other_class(have.left, slot_.left) : other_class(have.right, slot_.right);
+        if (other) half.cost += costs_.other_context;
+        (other ? of_any : of_class).push_back(half);
     }
     return of_class.empty() ? of_any : of_class;
 }
@@ -149,6 +158,21 @@ std::vector<Candidate> Target::halves() const {
 }
 
 }  // namespace
+
+PhoneContext context_of(const PhoneSlot& slot, int sample_rate) {
+    return {slot.left2,  slot.left,   slot.right,
+            slot.right2, slot.stress, static_cast<double>(slot.end - slot.begin) / sample_rate};
+}
+
+PhoneContext context_of(const Codex& codex, const TriphoneUnit& unit) {
+    return {unit.left2, unit.left, unit.right, unit.right2, unit.stress, body_of(codex, unit).duration_s};
+}
+
+double unlikeness(const PhoneContext& a, const PhoneContext& b, const SelectionCosts& costs) {
+    const int others = other_class(a.left, b.left) + other_class(a.right, b.right);
+    return own_cost(a, b, costs) + left_cost(a, b, costs) + right_cost(a, b, costs) +
+           others * costs.other_context;
+}
 
 std::vector<Candidate> candidates_of(const Codex& codex, const PhoneSlot& slot, int sample_rate,
                                      const SelectionCosts& costs) {

@@ -31,6 +31,18 @@ struct SelectionCosts {
     double half = 1;             // mm, for every half unit, beside the distance of the two nuclei
 };
 
+// What a phone stands in, whether recited or asked for.
+struct PhoneContext {
+    PhoneId left2 = kPause, left = kPause, right = kPause, right2 = kPause;
+    int stress = 0;
+    double duration_s = 0;
+};
+PhoneContext context_of(const PhoneSlot& slot, int sample_rate);
+PhoneContext context_of(const Codex& codex, const TriphoneUnit& unit);
+
+// mm, how unlike two contexts of one phone are: all of the costs of units that stand in whole.
+double unlikeness(const PhoneContext& a, const PhoneContext& b, const SelectionCosts& costs = {});
+
 enum class UnitLevel : std::uint8_t { kExact, kClass, kHalf };
 
 struct Candidate {

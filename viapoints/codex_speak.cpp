@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "viapoints/codex_consensus.hpp"
 #include "viapoints/via_spacing.hpp"
 
 namespace viaface {
@@ -74,15 +75,31 @@ std::vector<Via> in_pause(std::vector<Via> vias, const Stage& stage, bool leads,
     return vias;
 }
 
+// The times of the chosen units' via points, the places that all alike agree on.
+void agree(const Codex& codex, const PhoneContext& asked, PhoneId centre, double duration_s,
+           std::vector<Via>& vias) {
+    const AlikeUnits alike = alike_units(codex, centre, asked);
+    if (alike.units.empty()) return;
+    PhoneInstants instants{{}, vias.front().at, duration_s};
+    for (const Via& via : vias) {
+        instants.at.push_back(via.at);
+        if (via.rank != ViaRank::kPassing) instants.nucleus = via.at;
+    }
+    const RowMatrix agreed = agreed_motion(codex, alike, kriging_weights(alike, *codex.scatter_mm), instants);
+    for (std::size_t i = 0; i < vias.size(); ++i) vias[i].point = agreed.row(static_cast<Eigen::Index>(i));
+}
+
 std::vector<Via> in_slot(const Codex& codex, const PhoneSlot& slot, const Candidate& unit, const Stage& stage,
                          int sample_rate) {
     const RecitedPhone& left = body_of(codex, unit.left);
     const RecitedPhone& right = body_of(codex, unit.right);
     std::vector<Via> vias = unit.left == unit.right ? whole(left) : joined(left, right);
+    const double recited_s = (left.duration_s + right.duration_s) / 2;
+    if (codex.scatter_mm) agree(codex, context_of(slot, sample_rate), left.phone, recited_s, vias);
     if (slot.centre != kPause) return in_phone(std::move(vias), stage);
-    const double recited = (left.duration_s + right.duration_s) / 2 * sample_rate;
     const Via rest{0, codex.rest.transpose(), ViaRank::kRest};
-    return in_pause(std::move(vias), stage, slot.left == kPause, recited, rest, kRestReach * sample_rate);
+    return in_pause(std::move(vias), stage, slot.left == kPause, recited_s * sample_rate, rest,
+                    kRestReach * sample_rate);
 }
 
 bool recited_together(const Codex& codex, const Candidate& from, const Candidate& to) {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "viapoints/codex_select.hpp"
+#include "viapoints/codex_consensus.hpp"
 #include "viapoints/codex_speak.hpp"
 #include "viapoints/measured.hpp"
 #include "viapoints/spline.hpp"
@@ -119,10 +119,22 @@ std::vector<LengthFigures> lengths_of(const std::vector<Beside>& takes, const st
     return figures;
 }
 
+std::vector<PointFigures> figures_of(const std::vector<Beside>& takes, const std::vector<int>& measured) {
+    std::vector<PointFigures> figures;
+    for (const int point : measured) figures.push_back(figures_of(takes, point));
+    return figures;
+}
+
 double root_mean_square(const std::vector<PointFigures>& points, double PointFigures::*figure) {
     double sum = 0;
     for (const PointFigures& each : points) sum += each.*figure * each.*figure;
     return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+TakeFigures figures_of(const std::string& name, const Beside& take, const std::vector<int>& measured) {
+    const std::vector<PointFigures> points = figures_of({take}, measured);
+    return {name, lengths_of({take}, measured), root_mean_square(points, &PointFigures::rms_mm),
+            root_mean_square(points, &PointFigures::spread_mm)};
 }
 
 }  // namespace
@@ -130,51 +142,65 @@ double root_mean_square(const std::vector<PointFigures>& points, double PointFig
 HeldOutFigures check_held_out(const RecordedTakes& takes, double share, const std::string& field,
                               const LearningOptions& options) {
     const Split parts = split(takes, share, field);
-    const LearntCodex learnt = learn_from_takes(
-        basis_of(parts.learned, options.basis_error_mm), takes.rest, parts.learned.size(),
-        [&](std::size_t i) { return *parts.learned[i]; }, "", options);
+    const Codex codex =
+        with_scatter(learn_from_takes(
+                         basis_of(parts.learned, options.basis_error_mm), takes.rest, parts.learned.size(),
+                         [&](std::size_t i) { return *parts.learned[i]; }, "", options)
+                         .codex);
     HeldOutFigures figures;
     figures.learned = parts.learned.size();
+    const std::vector<int> measured = measured_points(takes.takes.front().take.motion.positions, field);
     std::vector<Beside> spoken;
     for (const Take* take : parts.left_out) {
-        figures.left_out.push_back(take->name);
-        const Selection selection = select_units(learnt.codex, take->phones);
+        const Selection selection = select_units(codex, take->phones);
         for (std::size_t i = 0; i < 3; ++i) figures.phones_at_level[i] += selection.phones_at_level[i];
-        spoken.push_back(beside(learnt.codex, *take, selection));
+        spoken.push_back(beside(codex, *take, selection));
+        figures.left_out.push_back(figures_of(take->name, spoken.back(), measured));
     }
-    const std::vector<int> measured = measured_points(takes.takes.front().take.motion.positions, field);
-    for (const int point : measured) figures.points.push_back(figures_of(spoken, point));
+    figures.points = figures_of(spoken, measured);
     figures.lengths = lengths_of(spoken, measured);
     figures.rms_mm = root_mean_square(figures.points, &PointFigures::rms_mm);
     figures.spread_mm = root_mean_square(figures.points, &PointFigures::spread_mm);
     return figures;
 }
 
-std::string as_text(const HeldOutFigures& figures) {
+namespace {
+
+std::string printed(const char* format, auto... values) {
     char line[160];
+    std::snprintf(line, sizeof line, format, values...);
+    return line;
+}
+
+std::string line_of(std::string_view name, const auto& figures) {
+    return printed("%-20s %6.2f %8.2f %10.2f\n", std::string(name).c_str(), figures.correlation,
+                   figures.rms_mm, figures.spread_mm);
+}
+
+std::string line_of(const TakeFigures& take) {
+    std::string line =
+        printed("%-20.40s %6s %8.2f %10.2f", take.name.c_str(), "", take.rms_mm, take.spread_mm);
+    for (const LengthFigures& each : take.lengths)
+        line += printed("  %s r %.2f rms %.2f", each.name.c_str(), each.correlation, each.rms_mm);
+    return line + "\n";
+}
+
+}  // namespace
+
+std::string as_text(const HeldOutFigures& figures) {
     const auto& [exact, of_class, half] = figures.phones_at_level;
     const double all = std::max(1, exact + of_class + half);
-    std::snprintf(line, sizeof line, "%zu takes learned from, %zu left out\n", figures.learned,
-                  figures.left_out.size());
-    std::string text = line;
-    std::snprintf(line, sizeof line, "triphones: %.1f%% exact, %.1f%% by viseme class, %.1f%% halves\n",
-                  100 * exact / all, 100 * of_class / all, 100 * half / all);
-    text += line;
-    std::snprintf(line, sizeof line, "%-20s %6s %8s %10s\n", "point", "r", "rms mm", "spread mm");
-    text += line;
-    for (const PointFigures& each : figures.points) {
-        std::snprintf(line, sizeof line, "%-20s %6.2f %8.2f %10.2f\n", point_name(each.point).data(),
-                      each.correlation, each.rms_mm, each.spread_mm);
-        text += line;
-    }
-    for (const LengthFigures& each : figures.lengths) {
-        std::snprintf(line, sizeof line, "%-20s %6.2f %8.2f %10.2f\n", each.name.c_str(), each.correlation,
-                      each.rms_mm, each.spread_mm);
-        text += line;
-    }
-    std::snprintf(line, sizeof line, "%-20s %6s %8.2f %10.2f\n", "all", "", figures.rms_mm,
-                  figures.spread_mm);
-    return text + line;
+    std::string text =
+        printed("%zu takes learned from, %zu left out\n", figures.learned, figures.left_out.size()) +
+        printed("triphones: %.1f%% exact, %.1f%% by viseme class, %.1f%% halves\n", 100 * exact / all,
+                100 * of_class / all, 100 * half / all);
+    const char* titles = "%-20s %6s %8s %10s\n";
+    text += printed(titles, "take left out", "", "rms mm", "spread mm");
+    for (const TakeFigures& each : figures.left_out) text += line_of(each);
+    text += printed(titles, "point", "r", "rms mm", "spread mm");
+    for (const PointFigures& each : figures.points) text += line_of(point_name(each.point), each);
+    for (const LengthFigures& each : figures.lengths) text += line_of(each.name, each);
+    return text + printed("%-20s %6s %8.2f %10.2f\n", "all", "", figures.rms_mm, figures.spread_mm);
 }
 
 }  // namespace viaface

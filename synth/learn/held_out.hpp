@@ -25,9 +25,16 @@ struct LengthFigures {
     double correlation = 0, rms_mm = 0, spread_mm = 0;
 };
 
+// Of one take left out.
+struct TakeFigures {
+    std::string name;
+    std::vector<LengthFigures> lengths;  // those measured
+    double rms_mm = 0, spread_mm = 0;    // over all points
+};
+
 struct HeldOutFigures {
-    std::size_t learned = 0;                  // takes
-    std::vector<std::string> left_out;        // names of takes
+    std::size_t learned = 0;  // takes
+    std::vector<TakeFigures> left_out;
     std::vector<PointFigures> points;         // those measured, in the layout's order
     std::vector<LengthFigures> lengths;       // those measured
     std::array<int, 3> phones_at_level = {};  // exact, class, half

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "synth/talker/talker.hpp"
+#include "viapoints/codex_consensus.hpp"
 #include "viapoints/codex_file.hpp"
 #include "viapoints/measured.hpp"
 
@@ -68,6 +69,7 @@ LearntTalker make_talker(const RecordedTakes& takes, const fs::path& base, const
                             [&](std::size_t i) { return *all[i]; }, provenance_of(takes), options),
                         {},
                         {}};
+    talker.learnt.codex = with_scatter(std::move(talker.learnt.codex));
     talker.coverage = coverage_of(talker.learnt.codex);
     talker.shares = shares_by_others(talker.learnt.codex);
     for (const char* part : {"face.glb", "estimators.bin"}) {

@@ -30,6 +30,8 @@ void expect_same(const Codex& a, const Codex& b) {
     EXPECT_EQ(a.basis.modes, b.basis.modes);
     EXPECT_EQ(a.rest, b.rest);
     EXPECT_EQ(a.provenance, b.provenance);
+    EXPECT_EQ(a.scatter_mm, b.scatter_mm);
+    EXPECT_EQ(a.motions.size(), b.motions.size());
     EXPECT_EQ(a.begins, b.begins);
     EXPECT_EQ(a.ends, b.ends);
     ASSERT_EQ(a.units.size(), b.units.size());
@@ -86,6 +88,21 @@ TEST(CodexFile, RoundingStaysWithinItsBoundsAndThenNothingChanges) {
     }
     EXPECT_LT(farthest, 0.02);
     EXPECT_GT(farthest, 0.004);  // steps are not finer than the bound asks
+}
+
+TEST(CodexFile, AScatterIsKeptAndOneOutOfBoundsRefused) {
+    Codex codex = plain_codex();
+    codex = make_codex(codex.basis, codex.rest, codex.recitations, "a test", 0.25);
+    const Bytes bytes = write_codex(codex);
+    expect_same(read_codex(write_codex(read_codex(bytes))), read_codex(bytes));
+    EXPECT_EQ(read_codex(bytes).scatter_mm, 0.25);
+    EXPECT_EQ(read_codex(bytes).motions.size(), 1u);
+    for (const double wrong : {-1.0, 1001.0, std::nan("")}) {
+        const Bytes changed = with_content(
+            bytes, "scat", [&](Bytes& content) { std::memcpy(content.data(), &wrong, sizeof wrong); });
+        EXPECT_NE(refusal(changed).find("scatter"), std::string::npos) << wrong;
+    }
+    EXPECT_NE(refusal(with_content(bytes, "scat", [](Bytes& content) { content.pop_back(); })), "");
 }
 
 TEST(CodexFile, TenComponentsTakeSixBytesAPhoneAndUnderNineteenAViaPoint) {
