@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/decompositions.hpp"
+#include "viapoints/lip_rows.hpp"
 
 namespace viaface {
 namespace {
@@ -109,6 +110,13 @@ RowMatrix agreed_motion(const Codex& codex, const AlikeUnits& alike, const Eigen
         }
     }
     return agreed;
+}
+
+Eigen::RowVectorXd with_lips_together(const Codex& codex, const Eigen::RowVectorXd& components) {
+    const std::optional<LipRows> lips = lip_rows(codex.basis);
+    if (!lips) return components;
+    const double gap = lips->apart.dot(components - codex.rest.transpose());
+    return components - lips->apart * (std::max(gap + kPressedLips, 0.0) / lips->apart.squaredNorm());
 }
 
 }  // namespace viaface

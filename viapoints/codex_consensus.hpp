@@ -41,6 +41,12 @@ struct PhoneInstants {
 RowMatrix agreed_motion(const Codex& codex, const AlikeUnits& alike, const Eigen::VectorXd& weights,
                         const PhoneInstants& instants);
 
+// The nearest place, components, where the lips press each other by as much, from where they are at rest: how
+// p, b and m are spoken though no frame of a film caught them closed. Pressed, they touch for longer than an
+// instant.
+inline constexpr double kPressedLips = 2;  // mm
+Eigen::RowVectorXd with_lips_together(const Codex& codex, const Eigen::RowVectorXd& components);
+
 // The codex with the scatter with which its phones are best told from the other recitations: the least of
 // kScatters that does not tell significantly more recitations worse than the one of least mean squared error
 // does. Few recitations tell little, and a single one nothing: 0, and they say themselves.

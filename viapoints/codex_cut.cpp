@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "viapoints/lip_rows.hpp"
 #include "viapoints/spline.hpp"
 #include "viapoints/via_spacing.hpp"
 
@@ -68,29 +69,21 @@ void check_take(const ConfigurationBasis& basis, const RecitationTake& take) {
 }
 
 // What is least at the nucleus of a phone: how far the lips are apart, how far the lower lip lies below the
-// upper teeth's edge (the origin), or the speed. Read off the inner lips, or off the lip markers or the
-// border of a basis without them.
+// upper teeth's edge (the origin), or the speed.
 class Openness {
   public:
     Openness(const ConfigurationBasis& basis, const SampledMotion& motion) : motion_(motion) {
-        const auto height = [&](Point point) { return basis.modes.row(3 * point + 1); };
-        const std::pair<Point, Point> pairs[] = {
-            {kInnerTop, kInnerBottom}, {kLipTop, kLipBottom}, {kBorderTop, kBorderBottom}};
-        const auto moves = [&](const auto& pair) {
-            return !height(pair.first).isZero(0) && !height(pair.second).isZero(0);
-        };
-        const auto pair = std::find_if(std::begin(pairs), std::end(pairs), moves);
-        check(pair != std::end(pairs), "a basis in which the lips do not move");
-        lower_lip_ = height(pair->second);
-        lips_ = height(pair->first) - lower_lip_;
+        const std::optional<LipRows> lips = lip_rows(basis);
+        check(lips.has_value(), "a basis in which the lips do not move");
+        lips_ = *lips;
     }
 
     double at(ViaRank rank, double time_s) const {
         switch (rank) {
             case ViaRank::kBilabial:
-                return lips_.dot(motion_.at(time_s));
+                return lips_.apart.dot(motion_.at(time_s));
             case ViaRank::kLabiodental:
-                return -lower_lip_.dot(motion_.at(time_s));
+                return -lips_.lower.dot(motion_.at(time_s));
             default:
                 return motion_.speed_at(time_s);
         }
@@ -98,7 +91,7 @@ class Openness {
 
   private:
     const SampledMotion& motion_;
-    Eigen::RowVectorXd lower_lip_, lips_;  // per component
+    LipRows lips_;
 };
 
 struct Span {

@@ -86,7 +86,10 @@ void agree(const Codex& codex, const PhoneContext& asked, PhoneId centre, double
         if (via.rank != ViaRank::kPassing) instants.nucleus = via.at;
     }
     const RowMatrix agreed = agreed_motion(codex, alike, kriging_weights(alike, *codex.scatter_mm), instants);
-    for (std::size_t i = 0; i < vias.size(); ++i) vias[i].point = agreed.row(static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < vias.size(); ++i) {
+        vias[i].point = agreed.row(static_cast<Eigen::Index>(i));
+        if (vias[i].rank == ViaRank::kBilabial) vias[i].point = with_lips_together(codex, vias[i].point);
+    }
 }
 
 std::vector<Via> in_slot(const Codex& codex, const PhoneSlot& slot, const Candidate& unit, const Stage& stage,

@@ -7,6 +7,7 @@
 
 #include "tests/viapoints/recited.hpp"
 #include "viapoints/codex_speak.hpp"
+#include "viapoints/lip_rows.hpp"
 
 namespace viaface {
 namespace {
@@ -161,6 +162,24 @@ TEST(CodexConsensus, ClosuresMeetAtTheirNuclei) {
     ASSERT_EQ(alike.units.size(), 2u);
     const RowMatrix agreed = agreed_motion(codex, alike, kriging_weights(alike, 1), {{0.5}, 0.5, 0.1});
     EXPECT_NEAR(agreed(0, 0), -9, 1e-9);
+}
+
+// A film that catches no closure: p is spoken with lips that press each other, by the least change.
+TEST(CodexConsensus, BilabialsCloseThoughNoRecordingDoes) {
+    const PhoneSequence phones =
+        sequence({{kPause, 0.3}, {id("aa"), 0.12}, {id("p"), 0.1}, {id("aa"), 0.12}, {kPause, 0.3}});
+    Recitation open = recitation_of(phones);
+    const Eigen::RowVectorXd apart = lip_rows(lip_basis())->apart;
+    for (RecitedPhone& phone : open) {
+        for (auto via : phone.points.rowwise())
+            via += apart * (std::max(0.0, 3 - apart.dot(via)) / apart.squaredNorm());
+    }
+    const Codex codex = codex_of_recitations({open, open}, 1.0);
+    EXPECT_LT((spoken(codex, phones) * apart.transpose()).middleRows(42, 10).minCoeff(), -0.9 * kPressedLips);
+    const Eigen::RowVectorXd wide = open[1].points.row(0), closed = with_lips_together(codex, wide);
+    EXPECT_NEAR(apart.dot(closed), -kPressedLips, 1e-9);
+    EXPECT_NEAR((wide - closed).norm(), (apart.dot(wide) + kPressedLips) / apart.norm(), 1e-9);
+    EXPECT_EQ(with_lips_together(codex, -3 * wide), -3 * wide);
 }
 
 TEST(CodexConsensus, WithoutAScatterTheChosenUnitsSpeak) {
