@@ -182,6 +182,12 @@ double mean_distance(const Configuration& a, const Configuration& b, const std::
     return sum / static_cast<double>(points.size());
 }
 
+// Of the two pauses the one in which the mouth is more as it mostly is: it may open to breathe in the other.
+const Configuration& nearest(const Configuration& before, const Configuration& after,
+                             const Configuration& rest, const std::vector<int>& points) {
+    return mean_distance(after, rest, points) < mean_distance(before, rest, points) ? after : before;
+}
+
 void check_same_points(const std::vector<RecordedTake>& takes, const std::string& field) {
     const auto first = measured_points(takes.front().take.motion.positions, field);
     for (const RecordedTake& each : takes) {
@@ -207,7 +213,7 @@ Configuration common_rest(const std::vector<RecordedTake>& takes, const std::str
     }
     const Configuration rest = median_of(rests);
     for (std::size_t i = 0; i < takes.size(); ++i) {
-        const Configuration own = (rests[2 * i] + rests[2 * i + 1]) / 2;
+        const Configuration& own = nearest(rests[2 * i], rests[2 * i + 1], rest, points);
         const double scale = size_of(own, points) / size_of(rest, points),
                      apart = mean_distance(own, rest, points);
         if (std::abs(scale - 1) > kOtherScale || apart > kOtherPlace) {

@@ -23,8 +23,10 @@ struct RecordedTakes {
 
 inline constexpr double kEndsApart = 0.25;  // s, that sound and motion may end apart
 inline constexpr double kOtherScale =
-    0.12;                                 // share that the size of a take's points may differ from the median
-inline constexpr double kOtherPlace = 6;  // mm, that a take's points at rest may lie from the median, in mean
+    0.12;  // share that the size of a take's points there may differ from the median
+// mm, that a take's points may lie from the median, in mean, in the pause before or after where they are
+// nearer
+inline constexpr double kOtherPlace = 6;
 
 // One motion file as motion of the talker's points, mm, in his head frame, during which these phones are
 // spoken; InputError for what is none.

@@ -118,6 +118,19 @@ TEST_F(RecordedTakesTest, TakesHoldTheSamePointsInOneScaleAndPlace) {
     refused({"mm apart"});
 }
 
+TEST_F(RecordedTakesTest, AMouthMayBeOpenBeforeATakeOrAfter) {
+    put_take("a", kSentence);
+    PerformedTake other = put_take("b", kOther);
+    Motion& motion = other.take.motion;
+    const double speaks_s = other.take.phones.end_s(0);
+    for (int p = 0; p < kPoints; ++p) {
+        for (Eigen::Index i = 0; i < motion.positions.rows(); ++i)
+            if (motion.time_s[static_cast<std::size_t>(i)] < speaks_s) motion.positions(i, 3 * p + 1) -= 15;
+    }
+    put("b.csv", motion);
+    EXPECT_EQ(read().takes.size(), 2u);
+}
+
 TEST_F(RecordedTakesTest, OnlyWhatBothRecordedIsCut) {
     const PerformedTake performed = put_take("a", kSentence);
     Motion motion = performed.take.motion;
