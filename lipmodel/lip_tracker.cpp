@@ -9,6 +9,8 @@
 #include "lipmodel/closed_lips.hpp"
 #include "lipmodel/lip_regions.hpp"
 #include "lipmodel/lip_thickness.hpp"
+#include "lipmodel/mouth_samples.hpp"
+#include "lipmodel/side_light.hpp"
 
 namespace viaface {
 namespace {
@@ -19,6 +21,7 @@ using Eigen::Vector3d;
 constexpr double kFocal = 1.5;      // of the picture's longer side
 constexpr double kLeastMouth = 12;  // px wide
 constexpr double kLeastLikeness = 0.7, kLeastConfidence = 0.45;
+constexpr double kLeastSaturation = 0.05;  // of a lower face in colour
 constexpr std::size_t kMostSamples = 200;  // of a class
 constexpr int kRounds = 3;                 // of fitting scales and classes in turns
 constexpr int kPatience = 3;               // pictures of low confidence until the track is lost
@@ -83,13 +86,27 @@ struct Climbed {
     int iterations = 0;
 };
 
-// One of the first pictures while scales and classes are fitted.
+// One of the first pictures, evened, while scales and classes are fitted.
 struct Fitting {
     const FaceSeen& seen;
+    std::vector<std::uint8_t> rgb;
     MouthInPicture mouth;
     LipPose pose = {};
     Eigen::VectorXd p = {};
+
+    Picture picture() const { return {seen.picture.width, seen.picture.height, rgb}; }
 };
+
+PictureBox all_of(const Picture& picture) { return {0, 0, picture.width, picture.height}; }
+
+SideLight side_light(std::span<const FaceSeen> seen) {
+    std::vector<double> slopes[3];
+    for (const FaceSeen& s : seen) {
+        const SideLight light = side_light(s.picture, s.face);
+        for (int c = 0; c < 3; ++c) slopes[c].push_back(light.slope[c]);
+    }
+    return {{median(slopes[0]), median(slopes[1]), median(slopes[2])}};
+}
 
 void add(std::vector<Rgb>& kept, const std::vector<Rgb>& samples, const ColourClasses& classes,
          double ClassFit::*fit, double least) {
@@ -106,11 +123,24 @@ std::vector<Rgb> thinned(const std::vector<Rgb>& samples) {
     return some;
 }
 
+[[noreturn]] void refuse_colours() {
+    throw InputError("video", "no lips that can be told from the skin", "a mouth in colour, in focus");
+}
+
 ColourClasses classes_of(const std::vector<Rgb>& lips, const std::vector<Rgb>& skin,
                          const std::vector<Rgb>& opening) {
     if (lips.size() < kLeastSamples * kLipComponents || skin.size() < kLeastSamples * kSkinComponents)
-        throw InputError("video", "no lips that can be told from the skin", "a mouth in colour, in focus");
+        refuse_colours();
     return learn_classes(thinned(lips), thinned(skin), thinned(opening));
+}
+
+double saturation(const std::vector<PlacedColour>& colours) {
+    double sum = 0;
+    for (const auto& [colour, far, height] : colours) {
+        const auto [least, most] = std::ranges::minmax(colour);
+        sum += (most - least) / (most + 1.0);
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(1, colours.size()));
 }
 
 double roll_of(const FaceInPicture& face) { return std::atan2(face.along().y(), face.along().x()); }
@@ -131,9 +161,15 @@ class LipTracker::Tracking {
           closed_(closed_lips(model_)),
           still_(Eigen::VectorXd::Zero(model_.modes.cols())) {
         if (seen.empty()) throw std::invalid_argument("LipTracker: no face seen");
+        light_ = side_light(seen);
         std::vector<Fitting> fittings;
-        for (const FaceSeen& s : seen)
-            fittings.push_back({s, s.mouth ? *s.mouth : find_mouth(s.picture, s.face)});
+        for (const FaceSeen& s : seen) {
+            const FaceAxis axis{s.face.middle(), s.face.along()};
+            std::vector<std::uint8_t> rgb = evened(s.picture, all_of(s.picture), light_, axis);
+            const Picture even{s.picture.width, s.picture.height, rgb};
+            const MouthInPicture mouth = s.mouth ? *s.mouth : find_mouth(even, s.face);
+            fittings.push_back({s, std::move(rgb), mouth});
+        }
         place(fittings);
         learn(fittings);
         face_ = seen.back().face;
@@ -190,13 +226,16 @@ class LipTracker::Tracking {
     }
 
     void learn(std::vector<Fitting>& fittings) {
-        MouthSamples samples;
+        std::vector<PlacedColour> colours;
         for (Fitting& f : fittings) {
-            add_samples(f.seen.picture, f.seen.face, f.mouth, samples);
+            const auto here = colours_about(f.picture(), f.seen.face, f.mouth);
+            colours.insert(colours.end(), here.begin(), here.end());
             f.pose = placing_.pose(f.mouth.centre, roll_of(f.seen.face), 1, scale_);
             f.p = still_;
         }
-        classes_ = classes_of(samples.lips, samples.skin, samples.opening);
+        if (saturation(colours) < kLeastSaturation) refuse_colours();
+        const auto learn = [](const MouthSamples& s) { return classes_of(s.lips, s.skin, s.opening); };
+        classes_ = learn(first_samples(colours, learn));
         for (int round = 0; round < kRounds; ++round) {
             fit(fittings);
             adapt(fittings);
@@ -214,7 +253,7 @@ class LipTracker::Tracking {
     void fit(std::vector<Fitting>& fittings) {
         std::vector<double> x, y;
         for (Fitting& f : fittings) {
-            const ClassMaps maps = maps_of(f.seen.picture, centre_of(f.pose));
+            const ClassMaps maps = maps_of(f.picture(), box_of_mouth(f.picture(), centre_of(f.pose)));
             f.pose.scale = scale_;
             const Climbed found = most_probable(maps, f.pose, kFirstFreedom, {f.p});
             f.p = found.p;
@@ -231,7 +270,7 @@ class LipTracker::Tracking {
         RegionSamples kept;
         for (const Fitting& f : fittings) {
             const RegionSamples all =
-                sample_regions(placing_.camera, f.pose, as_lip_nodes(lip_shape(model_, f.p)), f.seen.picture);
+                sample_regions(placing_.camera, f.pose, as_lip_nodes(lip_shape(model_, f.p)), f.picture());
             add(kept.lips, all.lips, *classes_, &ClassFit::lips, kLeastFit);
             add(kept.skin, all.skin, *classes_, &ClassFit::skin, kLeastFit);
             add(kept.opening, all.opening, *classes_, &ClassFit::opening, 1);
@@ -244,9 +283,12 @@ class LipTracker::Tracking {
         return placing_.camera.centre_px + placing_.camera.focal_px * place.head<2>() / place.z();
     }
 
-    ClassMaps maps_of(const Picture& picture, const Vector2d& centre) const {
-        return class_maps(picture, box_about(picture, centre, 0.95 * mouth_px_, 0.85 * mouth_px_), *classes_,
-                          hamming_size(mouth_px_));
+    PictureBox box_of_mouth(const Picture& picture, const Vector2d& centre) const {
+        return box_about(picture, centre, 0.95 * mouth_px_, 0.85 * mouth_px_);
+    }
+
+    ClassMaps maps_of(const Picture& evened, const PictureBox& box) const {
+        return class_maps(evened, box, *classes_, hamming_size(mouth_px_));
     }
 
     // From each start; then, from the best, with the lips shut.
@@ -270,7 +312,12 @@ class LipTracker::Tracking {
     }
 
     TrackedLips climbed(const Picture& picture, const LipPose& expected, const PoseFreedom& freedom) const {
-        const ClassMaps maps = maps_of(picture, centre_of(expected));
+        const Vector2d centre = centre_of(expected);
+        const double roll = expected.turn.z();
+        const PictureBox box = box_of_mouth(picture, centre);
+        const std::vector<std::uint8_t> rgb =
+            evened(picture, box, light_, {centre, {std::cos(roll), std::sin(roll)}});
+        const ClassMaps maps = maps_of({picture.width, picture.height, rgb}, box);
         const Climbed best = most_probable(maps, expected, freedom, {last_.size() ? last_ : still_, still_});
         TrackedLips lips{.found = true,
                          .p = best.p,
@@ -315,6 +362,7 @@ class LipTracker::Tracking {
     FaceFinder finder_;
     std::optional<FaceInPicture> face_;  // as it was found last
     ClosedLips closed_;
+    SideLight light_ = {};
     Eigen::VectorXd still_, last_;
     std::optional<ColourClasses> classes_;
     double mouth_px_ = 0;

@@ -4,44 +4,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "lipmodel/lower_face.hpp"
+
 namespace viaface {
 namespace {
 
 // In distances of the eyes, from the middle between them.
 constexpr double kMouthBelow = 1.1, kMouthWidth = 0.8, kMouthHeight = 0.32;
-constexpr double kHalfAcross = 0.62, kFrom = 0.75, kTo = 1.6;
 constexpr double kPlaceSdAcross = 0.3, kPlaceSdDown = 0.25;
-constexpr double kDark = 0.5;  // of the lips' brightness: what lies between them
-constexpr int kSteps = 56;     // of the grid laid over the search box, across
-
-// The search box as a grid along and across the line of the eyes.
-struct Grid {
-    const FaceInPicture& face;
-    double step;  // px
-    int across, down;
-
-    explicit Grid(const FaceInPicture& f)
-        : face(f),
-          step(2 * kHalfAcross * f.eye_distance() / kSteps),
-          across(kSteps + 1),
-          down(static_cast<int>((kTo - kFrom) * f.eye_distance() / step) + 1) {}
-
-    double right(int i) const { return (i - kSteps / 2) * step; }
-    double below(int j) const { return kFrom * face.eye_distance() + j * step; }
-    Eigen::Vector2d place(double right, double below) const {
-        return face.middle() + right * face.along() + below * face.down();
-    }
-};
-
-Rgb seen(const Picture& picture, const Eigen::Vector2d& place) {
-    const int x = std::clamp(static_cast<int>(std::lround(place.x())), 0, picture.width - 1),
-              y = std::clamp(static_cast<int>(std::lround(place.y())), 0, picture.height - 1);
-    return picture.at(x, y);
-}
-
-double hue(const Rgb& c) { return (c[0] + 5.0) / (c[0] + c[1] + 10.0); }
-
-double brightness(const Rgb& c) { return (c[0] + c[1] + c[2]) / 3.0; }
 
 double otsu(std::vector<double> values) {
     std::ranges::sort(values);
@@ -71,14 +41,14 @@ struct Moments {
 };
 
 struct Reds {
-    Grid grid;
+    LowerFace grid;
     std::vector<double> hues;  // [down x across]
     double cut, skin_mean, skin_sd, lips_mean;
 
     Reds(const Picture& picture, const FaceInPicture& face) : grid(face) {
         for (int j = 0; j < grid.down; ++j) {
             for (int i = 0; i < grid.across; ++i)
-                hues.push_back(hue(seen(picture, grid.place(grid.right(i), grid.below(j)))));
+                hues.push_back(pseudo_hue(colour_near(picture, grid.place(grid.right(i), grid.below(j)))));
         }
         cut = otsu(hues);
         double below = 0, squares = 0, above = 0;
@@ -144,35 +114,6 @@ MouthInPicture find_mouth(const Picture& picture, const FaceInPicture& face) {
             .redness = (reds.lips_mean - reds.skin_mean) / reds.skin_sd};
 }
 
-void add_samples(const Picture& picture, const FaceInPicture& face, const MouthInPicture& mouth,
-                 MouthSamples& samples) {
-    const Reds reds(picture, face);
-    const Eigen::Vector2d centre = mouth.centre - face.middle();
-    const double centre_right = centre.dot(face.along()), centre_below = centre.dot(face.down());
-    double bright = 0;
-    int count = 0;
-    const auto each = [&](auto&& what) {
-        for (int j = 0; j < reds.grid.down; ++j) {
-            for (int i = 0; i < reds.grid.across; ++i) {
-                const double u = (reds.grid.right(i) - centre_right) / (0.5 * mouth.width),
-                             v = (reds.grid.below(j) - centre_below) / (0.5 * mouth.height);
-                what(seen(picture, reds.grid.place(reds.grid.right(i), reds.grid.below(j))),
-                     reds.at(i, j) >= reds.cut, u * u + v * v, std::abs(v));
-            }
-        }
-    };
-    each([&](const Rgb& c, bool red, double far, double) {
-        if (!red || far > 1) return;
-        bright += brightness(c);
-        ++count;
-    });
-    const double dark = count > 0 ? kDark * bright / count : 60;
-    each([&](const Rgb& c, bool red, double far, double height) {
-        if (far > 1.7 && far < 5 && !red) samples.skin.push_back(c);
-        if (far < 1 && red && brightness(c) >= dark) samples.lips.push_back(c);
-        if (far < 0.6 && height < 0.45 && (brightness(c) < dark || (!red && far < 0.3)))
-            samples.opening.push_back(c);
-    });
-}
+double pseudo_hue(const Rgb& c) { return (c[0] + 5.0) / (c[0] + c[1] + 10.0); }
 
 }  // namespace viaface

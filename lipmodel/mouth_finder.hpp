@@ -20,12 +20,6 @@ MouthInPicture usual_mouth(const FaceInPicture& face);
 
 MouthInPicture find_mouth(const Picture& picture, const FaceInPicture& face);
 
-// What is not the skin's colour in the mouth and not the lips' either: dark, or teeth. First samples of each
-// class, before any model has been fitted.
-struct MouthSamples {
-    std::vector<Rgb> lips, skin, opening;
-};
-void add_samples(const Picture& picture, const FaceInPicture& face, const MouthInPicture& mouth,
-                 MouthSamples& samples);
+double pseudo_hue(const Rgb& colour);
 
 }  // namespace viaface

@@ -1,0 +1,95 @@
+#include "lipmodel/mouth_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lipmodel/lower_face.hpp"
+
+namespace viaface {
+namespace {
+
+constexpr double kLipsWithin = 0.8, kSkinFrom = 1.5, kSkinWithin = 3;  // of the mouth's ellipse
+constexpr double kOpeningWithin = 0.6, kOpeningHeight = 0.45;
+constexpr double kDark = 0.5;  // of the mouth's brightness: what lies between the lips
+constexpr double kPale = 2;    // standard deviations of the skin's redness: teeth
+constexpr int kRounds = 4;
+
+double brightness(const Rgb& c) { return (c[0] + c[1] + c[2]) / 3.0; }
+
+struct Spread {
+    double mean = 0, sd = 0;
+};
+Spread spread_of(const std::vector<Rgb>& colours, double (*value)(const Rgb&)) {
+    double sum = 0, squares = 0;
+    for (const Rgb& c : colours) {
+        sum += value(c);
+        squares += value(c) * value(c);
+    }
+    const double n = static_cast<double>(std::max<std::size_t>(1, colours.size()));
+    return {sum / n, std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)))};
+}
+
+MouthSamples by_place(std::span<const PlacedColour> colours) {
+    MouthSamples guess;
+    std::vector<Rgb> middle;
+    for (const PlacedColour& c : colours) {
+        if (c.far > kSkinFrom) guess.skin.push_back(c.colour);
+        if (c.far < kLipsWithin) middle.push_back(c.colour);
+    }
+    const Spread redness = spread_of(guess.skin, pseudo_hue);
+    const double pale = redness.mean - kPale * redness.sd, dark = kDark * spread_of(middle, brightness).mean;
+    for (const PlacedColour& c : colours) {
+        if (c.far >= kLipsWithin) continue;
+        const bool lips = brightness(c.colour) >= dark && pseudo_hue(c.colour) >= pale;
+        if (lips) guess.lips.push_back(c.colour);
+        if (!lips && c.far < kOpeningWithin && c.height < kOpeningHeight) guess.opening.push_back(c.colour);
+    }
+    return guess;
+}
+
+double lips_expected(double far) { return 0.02 + 0.9 / (1 + std::exp((far - 1) / 0.15)); }
+
+// What is not of the opening is lips or skin.
+MouthSamples by_colour(std::span<const PlacedColour> colours, const ColourClasses& classes) {
+    MouthSamples samples;
+    for (const PlacedColour& c : colours) {
+        const ClassFit fit = fit_of(classes, c.colour);
+        if (fit.opening == 1 && c.far < kLipsWithin) continue;
+        const double lips = lips_expected(c.far);
+        (fit.lips * lips > fit.skin * (1 - lips) ? samples.lips : samples.skin).push_back(c.colour);
+    }
+    return samples;
+}
+
+}  // namespace
+
+std::vector<PlacedColour> colours_about(const Picture& picture, const FaceInPicture& face,
+                                        const MouthInPicture& mouth) {
+    const LowerFace grid(face);
+    const Eigen::Vector2d centre = mouth.centre - face.middle();
+    const double centre_right = centre.dot(face.along()), centre_below = centre.dot(face.down());
+    const double half_height = 0.5 * std::max(mouth.height, usual_mouth(face).height);
+    std::vector<PlacedColour> colours;
+    for (int j = 0; j < grid.down; ++j) {
+        for (int i = 0; i < grid.across; ++i) {
+            const double u = (grid.right(i) - centre_right) / (0.5 * mouth.width),
+                         v = (grid.below(j) - centre_below) / half_height;
+            if (std::hypot(u, v) >= kSkinWithin) continue;
+            const Rgb colour = colour_near(picture, grid.place(grid.right(i), grid.below(j)));
+            colours.push_back({colour, std::hypot(u, v), std::abs(v)});
+        }
+    }
+    return colours;
+}
+
+MouthSamples first_samples(std::span<const PlacedColour> colours, const LearnClasses& learn) {
+    MouthSamples samples = by_place(colours);
+    for (int round = 0; round < kRounds; ++round) {
+        MouthSamples next = by_colour(colours, learn(samples));
+        samples.lips = std::move(next.lips);
+        samples.skin = std::move(next.skin);
+    }
+    return samples;
+}
+
+}  // namespace viaface
