@@ -308,7 +308,7 @@ class Borrowing {
                 phone.points = RowMatrix(phone.points * change.transpose());
         }
         return make_codex(basis, change * codex.rest, std::move(recitations),
-                          codex.provenance + " Scaled to another face.");
+                          codex.provenance + " Scaled to another face.", codex.scatter_mm);
     }
 
     const GenericHead& lender_;

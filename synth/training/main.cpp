@@ -102,7 +102,8 @@ Codex carried_codex(const BlendHead& head, const fs::path& momo) {
     const Codex codex = read_codex(read_bytes(momo / "codex.via", "momo"));
     ConfigurationBasis basis = codex.basis;
     basis.mean += head.points(head.neutral().nodes) - head.points(head.generic());
-    return make_codex(basis, codex.rest, codex.recitations, codex.provenance + " From another face's rest.");
+    return make_codex(basis, codex.rest, codex.recitations, codex.provenance + " From another face's rest.",
+                      codex.scatter_mm);
 }
 
 void make_codex(const BlendHead& head, const Person& person, const fs::path& corpus, const fs::path& output) {

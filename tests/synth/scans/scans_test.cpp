@@ -120,8 +120,9 @@ TEST(AdaptedHead, RefusesWhatHasNoFace) {
 
 TEST(BorrowedTalker, OfTheLendersOwnHeadIsTheLender) {
     const Codex codex = make_codex({momo().training.rest, Eigen::MatrixXd::Identity(kCoordinates, 2)},
-                                   Eigen::VectorXd::Zero(2), {}, "nobody");
+                                   Eigen::VectorXd::Zero(2), {}, "nobody", 0.5);
     const BorrowedTalker talker = with_borrowed_motion(momo(), codex, momo().face.rest, 1);
+    EXPECT_EQ(talker.codex.scatter_mm, codex.scatter_mm);
     EXPECT_LT((talker.motion_scale - Vector3d::Ones()).norm(), 0.02);
     const Poser lender(momo().face, momo().training), borrower(talker.face, talker.training);
     for (const Eigen::Index k : {0, 3, 9}) {
