@@ -41,9 +41,11 @@ Sizes sizes_of(std::span<const std::uint8_t> bytes, std::size_t head_bytes) {
 void print_head(const StreamHead& head, Eigen::Index modes) {
     std::printf("talker         %s\n",
                 head.talker.empty() ? "none: the basis stands in the stream" : head.talker.c_str());
-    std::printf("points         %zu, in %d modes, %d of them the talker's, %d blends of his\n",
-                head.points.size(), static_cast<int>(modes), static_cast<int>(head.shared_modes.size()),
-                static_cast<int>(head.blends.cols()));
+    std::printf(
+        "points         %zu, in %d modes, %d of them the talker's, %d blends of his, %d directions "
+        "within them\n",
+        head.points.size(), static_cast<int>(modes), static_cast<int>(head.shared_modes.size()),
+        static_cast<int>(head.blends.cols()), static_cast<int>(head.directions.count()));
     std::printf("bound          %g mm; step %g mm; %d ticks per s; sync at most every %.3g s\n",
                 head.bound_mm, head.step_mm, head.ticks_per_s,
                 static_cast<double>(head.longest_segment) / head.ticks_per_s);

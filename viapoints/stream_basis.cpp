@@ -118,8 +118,7 @@ ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::ve
         more.modes.rightCols(1).setZero();
         for (std::size_t i = 0; i < points.size(); ++i)
             more.modes.block<3, 1>(3 * points[i], more.size() - 1) =
-                direction.segment<3>(static_cast<Index>(3 * i));
-        more = stored_basis(more);
+                direction.segment<3>(static_cast<Index>(3 * i)).unaryExpr(&rounded_entry);
     }
     return more;
 }

@@ -26,7 +26,7 @@ RowMatrix fitted_components(const ConfigurationBasis& basis, const std::vector<i
                             const RowMatrix& positions);
 
 // The basis followed by as many more modes of what it leaves of `positions` as bring the largest error at
-// `points` to max_error_mm or below, all as stored. Leading modes that are not needed are kept.
+// `points` to max_error_mm or below, these as stored. Leading modes that are not needed are kept.
 ConfigurationBasis extended_basis(const ConfigurationBasis& basis, const std::vector<int>& points,
                                   const RowMatrix& positions, double max_error_mm);
 

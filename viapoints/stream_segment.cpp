@@ -200,9 +200,24 @@ int SegmentEncoder::coarsest() const {
     return finer;
 }
 
-SegmentVia SegmentEncoder::encode(const Motion& motion, const CutSegment& cut) {
+SegmentEncoder::Ends SegmentEncoder::planned_ends(const CutSegment& cut) const {
     const auto moves = [&](double speed) { return speed > kRestingSpeed * tools_.head.bound_mm; };
-    const Ends planned{started_ ? moves_last(last_.via.tick) : moves(cut.first_speed), moves(cut.last_speed)};
+    return {started_ ? moves_last(last_.via.tick) : moves(cut.first_speed), moves(cut.last_speed)};
+}
+
+RoughSegment SegmentEncoder::rough(const Motion& motion, const CutSegment& cut) const {
+    const std::vector<int> modes = modes_for(motion, cut);
+    RoughSegment found;
+    for (const Ends ends : {planned_ends(cut), Ends{true, true}}) {
+        found.segment = searched(motion, cut, modes, 0, ends);
+        found.holds = segment_error(tools_, found.segment, motion, cut).largest_mm <= tools_.head.bound_mm;
+        if (found.holds) break;
+    }
+    return found;
+}
+
+SegmentVia SegmentEncoder::encode(const Motion& motion, const CutSegment& cut) {
+    const Ends planned = planned_ends(cut);
     const int first = coarsest();
     double least = std::numeric_limits<double>::infinity();
     std::vector<int> modes = modes_for(motion, cut);

@@ -30,6 +30,11 @@ struct SegmentEffort {
     bool few_modes = false;  // only modes that a segment needs take part in it, the others stay 0
 };
 
+struct RoughSegment {
+    SegmentVia segment;
+    bool holds = false;  // the bound
+};
+
 // Segment after segment of a motion, in order: each begins with what the one before ended with.
 class SegmentEncoder {
   public:
@@ -37,11 +42,14 @@ class SegmentEncoder {
 
     // InputError("max_error_mm", ...) when the bound cannot be held on the grid of ticks.
     SegmentVia encode(const Motion& motion, const CutSegment& cut);
+    // One that follows nothing, at the stream's own step.
+    RoughSegment rough(const Motion& motion, const CutSegment& cut) const;
 
   private:
     struct Ends {
         bool first_moves, last_moves;
     };
+    Ends planned_ends(const CutSegment& cut) const;
     std::vector<int> modes_for(const Motion& motion, const CutSegment& cut) const;
     SegmentVia searched(const Motion& motion, const CutSegment& cut, const std::vector<int>& modes, int finer,
                         Ends ends) const;

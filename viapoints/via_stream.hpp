@@ -56,11 +56,6 @@ struct EncodedStream {
 EncodedStream encode_stream(const Motion& motion, const StreamModel* model, const StreamOptions& options = {},
                             const std::vector<StreamPhone>& phones = {});
 
-// A head, basis and statistics from a model, for motion of `points` under a bound, in `modes` of it (rising)
-// and blends of the others. InputError("talker", ...) for a point that the model lacks.
-StreamTools shared_tools(const StreamModel& model, std::vector<int> points, double max_error_mm,
-                         std::vector<int> modes, BlendWeights blends = {});
-
 struct DecodedSegment {
     std::uint32_t first_tick = 0;
     double begin_s = 0, end_s = 0;

@@ -11,15 +11,10 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::uint8_t kHasTalker = 1, kHasStart = 2, kHasModes = 4, kHasBlends = 8;
+constexpr std::uint8_t kHasTalker = 1, kHasStart = 2, kHasModes = 4, kHasBlends = 8, kHasDirections = 16;
 constexpr std::uint8_t kLayout = 1;  // LAYOUT.md with its 38 points
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("via stream, head: " + what); }
-
-// Modes that are made of the model's.
-Index shared_count(const StreamHead& head) {
-    return static_cast<Index>(head.shared_modes.size()) + head.blends.cols();
-}
 
 // A bit for each mode up to the last one that is used.
 void put_mode_set(ByteWriter& writer, const std::vector<int>& modes) {
@@ -50,7 +45,8 @@ Bytes put_head(const StreamTools& tools) {
     const bool modes = tools.basis.size() > shared_count(head);
     writer.put(static_cast<std::uint8_t>((head.talker.empty() ? 0 : kHasTalker) |
                                          (head.start_s != 0 ? kHasStart : 0) | (modes ? kHasModes : 0) |
-                                         (head.blends.cols() > 0 ? kHasBlends : 0)));
+                                         (head.blends.cols() > 0 ? kHasBlends : 0) |
+                                         (head.directions.count() > 0 ? kHasDirections : 0)));
     writer.put(kLayout);
     put_point_set(writer, head.points);
     writer.put(static_cast<std::uint8_t>(head.ticks_per_s));
@@ -65,6 +61,7 @@ Bytes put_head(const StreamTools& tools) {
         writer.put(static_cast<std::uint8_t>(head.table));
         put_mode_set(writer, head.shared_modes);
         if (head.blends.cols() > 0) put_blends(writer, head.blends, head.shared_modes);
+        if (head.directions.count() > 0) put_directions(writer, head.directions);
     }
     return writer.bytes();
 }
@@ -78,7 +75,8 @@ TakenHead take_head(ByteReader& reader) {
     TakenHead taken;
     StreamHead& head = taken.head;
     const auto flags = reader.get<std::uint8_t>();
-    if (flags > (kHasTalker | kHasStart | kHasModes | kHasBlends)) refuse("flags that are not known");
+    if (flags > (kHasTalker | kHasStart | kHasModes | kHasBlends | kHasDirections))
+        refuse("flags that are not known");
     taken.modes = (flags & kHasModes) != 0;
     if (const auto layout = reader.get<std::uint8_t>(); layout != kLayout)
         refuse("layout " + std::to_string(layout) + ", known is 1");
@@ -100,8 +98,9 @@ TakenHead take_head(ByteReader& reader) {
         head.table = reader.get<std::uint8_t>();
         head.shared_modes = take_mode_set(reader);
         if (flags & kHasBlends) head.blends = take_blends(reader, head.shared_modes);
-    } else if (flags & kHasBlends) {
-        refuse("blends without a talker");
+        if (flags & kHasDirections) head.directions = take_directions(reader);
+    } else if (flags & (kHasBlends | kHasDirections)) {
+        refuse("blends or directions without a talker");
     }
     if (reader.left() > 0) refuse("bytes left over");
     return taken;
@@ -136,10 +135,11 @@ void share(StreamTools& tools, const StreamModel& model) {
     if (!head.shared_modes.empty() && head.shared_modes.back() >= model.basis.size())
         refuse("a mode that the model lacks");
     if (head.blends.rows() > model.basis.size()) refuse("a blend of a mode that the model lacks");
+    if (head.directions.weights.rows() > model.basis.size())
+        refuse("a direction in a mode that the model lacks");
     if (shared_count(head) > kMostStreamComponents) refuse("more than 114 modes");
     tools.basis = shared_basis(model, head);
-    tools.statistics = with_components(model.tables[static_cast<std::size_t>(head.table)], head.shared_modes,
-                                       static_cast<int>(tools.basis.size()));
+    tools.statistics = shared_statistics(model, head);
 }
 
 void append_modes(StreamTools& tools, ByteReader reader) {
@@ -157,8 +157,22 @@ ConfigurationBasis shared_basis(const StreamModel& model, const StreamHead& head
     ConfigurationBasis basis{model.basis.mean, Eigen::MatrixXd(kCoordinates, shared_count(head))};
     basis.modes.leftCols(static_cast<Index>(head.shared_modes.size())) =
         model.basis.modes(Eigen::all, head.shared_modes);
-    basis.modes.rightCols(head.blends.cols()) = blended_modes(model.basis, head.blends);
+    basis.modes.middleCols(static_cast<Index>(head.shared_modes.size()), head.blends.cols()) =
+        blended_modes(model.basis, head.blends);
+    basis.modes.rightCols(head.directions.count()) = modes_along(model.basis, head.directions);
     return basis;
+}
+
+StreamStatistics shared_statistics(const StreamModel& model, const StreamHead& head) {
+    StreamStatistics statistics = with_components(model.tables[static_cast<std::size_t>(head.table)],
+                                                  head.shared_modes, static_cast<int>(shared_count(head)));
+    set_chances(statistics, static_cast<std::size_t>(shared_count(head) - head.directions.count()),
+                head.directions.chance);
+    return statistics;
+}
+
+Index shared_count(const StreamHead& head) {
+    return static_cast<Index>(head.shared_modes.size()) + head.blends.cols() + head.directions.count();
 }
 
 Bytes write_stream_head(const StreamTools& tools) {

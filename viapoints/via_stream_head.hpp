@@ -2,6 +2,7 @@
 #pragma once
 
 #include "viapoints/stream_blends.hpp"
+#include "viapoints/stream_directions.hpp"
 #include "viapoints/stream_model.hpp"
 
 namespace viaface {
@@ -12,6 +13,7 @@ struct StreamHead {
     int table = 0;                  // of the talker's model; of a stream without one, unused
     std::vector<int> shared_modes;  // those of the talker's basis that are used, rising
     BlendWeights blends;            // of its other modes
+    StreamDirections directions;    // within its modes
     double start_s = 0;             // the time of tick 0
     int ticks_per_s = 30;
     std::uint32_t longest_segment = 300;  // ticks
@@ -26,8 +28,12 @@ struct StreamTools {
     StreamStatistics statistics;
 };
 
-// The model's modes that a stream uses, then its blends.
+// The model's modes that a stream uses, then its blends, then its directions.
 ConfigurationBasis shared_basis(const StreamModel& model, const StreamHead& head);
+// What is known beforehand of their components.
+StreamStatistics shared_statistics(const StreamModel& model, const StreamHead& head);
+// How many these are.
+Eigen::Index shared_count(const StreamHead& head);
 
 Bytes write_stream_head(const StreamTools& tools);
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "viapoints/stream_choice.hpp"
 
 namespace viaface {
 namespace {

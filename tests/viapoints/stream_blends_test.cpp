@@ -7,6 +7,7 @@
 #include "tests/viapoints/smooth_motion.hpp"
 #include "viapoints/measured.hpp"
 #include "viapoints/stream_basis.hpp"
+#include "viapoints/stream_choice.hpp"
 #include "viapoints/stream_train.hpp"
 #include "viapoints/via_stream.hpp"
 
@@ -99,7 +100,7 @@ TEST(StreamBlends, AMotionInADirectionOfItsOwnTakesOneComponentMore) {
     const EncodedStream encoded = encode_stream(motion, &model);
     const StreamModel* const models[] = {&model};
     const DecodedStream decoded = decode_stream(encoded.bytes, models);
-    EXPECT_EQ(decoded.head.blends.cols(), 1);
+    EXPECT_EQ(decoded.head.blends.cols() + decoded.head.directions.count(), 1);
     EXPECT_LE(decoded.basis.size(), 2);
     EXPECT_EQ(encoded.account.basis_bytes, 0u);
     const RowMatrix off = coordinates_of(decoded.positions(motion.time_s) - motion.positions, held_points());
