@@ -152,15 +152,23 @@ double KnotLine::strain(std::size_t strand) const {
     return sum;
 }
 
-// The control points that the strand's fit begins with: those that are there.
+// The control points that the strand's fit begins with: those that are not free but under its samples.
 void KnotLine::hold(std::size_t strand) {
     const auto width = at(strands_[strand].width);
     std::vector<double>& held = fits_[strand].control;
-    held.assign((stretch_.ids.size() + kSupport - 1) * width, 0.0);
-    for (std::size_t i = 0; i < stretch_.ids.size(); ++i) {
-        if (stretch_.ids[i] == kNone) continue;
-        std::copy_n(&controls_[strand][at(stretch_.ids[i]) * width], width, &held[i * width]);
-    }
+    const int all = stretch_.fit.controls + kSupport - 1;
+    held.resize(at(all) * width);
+    const auto copy = [&](int from, int to) {
+        for (int i = from; i < to; ++i) {
+            const int id = i < stretch_.fit.controls ? stretch_.ids[at(i)] : kNone;
+            if (id == kNone)
+                std::fill_n(&held[at(i) * width], width, 0.0);
+            else
+                std::copy_n(&controls_[strand][at(id) * width], width, &held[at(i) * width]);
+        }
+    };
+    copy(std::max(0, stretch_.fit.free_begin - 2 * kSupport), stretch_.fit.free_begin);
+    copy(stretch_.fit.free_end, std::min(all, stretch_.fit.free_end + 2 * kSupport));
 }
 
 bool KnotLine::fit(std::size_t strand, int rounds) {

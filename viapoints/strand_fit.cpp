@@ -151,11 +151,14 @@ void NormalMatrix::factor(const FitStretch& stretch, std::span<const double> emp
     }
 }
 
-void NormalMatrix::move_held(const FitStretch& stretch, int width, const std::vector<double>& control,
-                             std::vector<double>& right) const {
+template <int kWidth>
+void NormalMatrix::move_held(const FitStretch& stretch, int width, const double* control,
+                             double* right) const {
     const int begin = stretch.free_begin, end = stretch.free_end;
     const auto subtract = [&](int from, double factor, int what) {
-        for (int k = 0; k < width; ++k) right[at(from * width + k)] -= factor * control[at(what * width + k)];
+        auto value = Lane<kWidth>::at(right + from * width);
+        value.subtract(factor, Lane<kWidth>::at(control + what * width));
+        value.put(right + from * width);
     };
     for (int i = std::max(0, begin - kSupport + 1); i < begin; ++i)
         for (int j = begin - i; j < kSupport; ++j) subtract(i + j, band_[at(i * kSupport + j)], i);
@@ -216,8 +219,8 @@ void StrandFit::solve(const Strand& strand, const FitStretch& stretch, const Nor
     for (int k = 0; k < width; k += kWidth)
         gather_right<kWidth>(stretch, even ? nullptr : emphasis.data(), value + k, width,
                              bench.right.data() + k);
-    matrix.move_held(stretch, width, control, bench.right);
     for (int k = 0; k < width; k += kWidth) {
+        matrix.move_held<kWidth>(stretch, width, control.data() + k, bench.right.data() + k);
         matrix.solve<kWidth>(stretch, width, bench.right.data() + k, control.data() + k);
         find_left<kWidth>(stretch, value + k, width, control.data() + k, bench.left.data() + k);
     }

@@ -50,9 +50,10 @@ class NormalMatrix {
   public:
     // Of samples that weigh `emphasis` each, or 1 where that is empty.
     void factor(const FitStretch& stretch, std::span<const double> emphasis);
-    // Takes what is known of the control points that are not free from the right sides [controls x width].
-    void move_held(const FitStretch& stretch, int width, const std::vector<double>& control,
-                   std::vector<double>& right) const;
+    // Takes what is known of the control points that are not free from the right sides [controls x width],
+    // kWidth of `width` numbers.
+    template <int kWidth>
+    void move_held(const FitStretch& stretch, int width, const double* control, double* right) const;
     // From right sides to free control points, kWidth of `width` numbers.
     template <int kWidth>
     void solve(const FitStretch& stretch, int width, double* right, double* control) const;
@@ -76,7 +77,7 @@ class StrandFit {
     bool within(const Strand& strand, const PointMeasure& measure, const FitStretch& stretch,
                 const NormalMatrix* even, double limit_mm2, int rounds, FitBench& bench);
 
-    std::vector<double> control;   // [controls + 5 x width], the last five 0
+    std::vector<double> control;   // [controls + 5 x width], those beyond the line 0
     std::vector<double> emphasis;  // [rows]
     std::vector<double> miss;      // [rows], mm^2
 
