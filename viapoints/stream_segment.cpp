@@ -17,6 +17,7 @@ using Eigen::Index;
 
 constexpr double kSearchedRate = 60;  // samples per second that a search looks at first
 constexpr double kRestingSpeed = 30;  // bounds per second: what moves slower at an end may rest there
+constexpr double kNearly = 1.5;       // bounds that other ends may bring within one
 constexpr int kFinerBits = 3;
 constexpr std::uint16_t kFinerAtAll = 2048, kEndMoves = 16384, kEndsEarly = 8192;  // of 65536
 constexpr int kMostNarrower = 3;  // times that the bound is drawn in for samples in between
@@ -210,8 +211,9 @@ RoughSegment SegmentEncoder::rough(const Motion& motion, const CutSegment& cut) 
     RoughSegment found;
     for (const Ends ends : {planned_ends(cut), Ends{true, true}}) {
         found.segment = searched(motion, cut, modes, 0, ends);
-        found.holds = segment_error(tools_, found.segment, motion, cut).largest_mm <= tools_.head.bound_mm;
-        if (found.holds) break;
+        const double error = segment_error(tools_, found.segment, motion, cut).largest_mm;
+        found.holds = error <= tools_.head.bound_mm;
+        if (found.holds || error > kNearly * tools_.head.bound_mm) break;
     }
     return found;
 }
