@@ -1,9 +1,7 @@
 // Lips followed through the pictures of a film. [Basu98, section 5] What the paper does by hand is done here:
 //   - the face and its eyes are found by cascades, the mouth below them by its red; the distance of the eyes
 //     gives the scale, which is stated and not measured;
-//   - the three scales and the colour classes are fitted on the first pictures in turns: the model's own
-//     regions give samples, the classes a posterior, its maximum new regions. A sample whose colour another
-//     class fits far better is left out, or the classes would drift into each other;
+//   - scales and colour classes are learned from the first pictures (first_pictures.hpp);
 //   - from then on the head is followed by the still part of the face (head_follower.hpp), and every picture
 //     is climbed from where the last one ended (and, where that is higher, from the mean shape).
 // A track whose confidence falls is lost; the face is looked for again in every picture until it is found.
@@ -14,22 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "lipmodel/first_pictures.hpp"
 #include "lipmodel/head_follower.hpp"
-#include "lipmodel/lip_ascent.hpp"
-#include "lipmodel/mouth_finder.hpp"
 
 namespace viaface {
-
-struct FaceSeen {
-    Picture picture;
-    FaceInPicture face;
-    std::optional<MouthInPicture> mouth = {};  // where it is given by hand; else found
-};
-
-struct TrackerOptions {
-    double eye_distance_mm = 63;  // the scale: between the pupils
-    AscentOptions ascent = {.iterations = 19};
-};
 
 struct TrackedLips {
     bool found = false;

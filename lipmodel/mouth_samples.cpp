@@ -9,24 +9,16 @@ namespace viaface {
 namespace {
 
 constexpr double kLipsWithin = 0.8, kSkinFrom = 1.5, kSkinWithin = 3;  // of the mouth's ellipse
-constexpr double kOpeningWithin = 0.6, kOpeningHeight = 0.45;
+constexpr double kOpeningWithin = 0.6, kOpeningHeight = 0.45, kCentre = 0.3;
 constexpr double kDark = 0.5;  // of the mouth's brightness: what lies between the lips
-constexpr double kPale = 2;    // standard deviations of the skin's redness: teeth
 constexpr int kRounds = 4;
 
 double brightness(const Rgb& c) { return (c[0] + c[1] + c[2]) / 3.0; }
 
-struct Spread {
-    double mean = 0, sd = 0;
-};
-Spread spread_of(const std::vector<Rgb>& colours, double (*value)(const Rgb&)) {
-    double sum = 0, squares = 0;
-    for (const Rgb& c : colours) {
-        sum += value(c);
-        squares += value(c) * value(c);
-    }
-    const double n = static_cast<double>(std::max<std::size_t>(1, colours.size()));
-    return {sum / n, std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)))};
+double mean_of(const std::vector<Rgb>& colours, double (*value)(const Rgb&)) {
+    double sum = 0;
+    for (const Rgb& c : colours) sum += value(c);
+    return sum / static_cast<double>(std::max<std::size_t>(1, colours.size()));
 }
 
 MouthSamples by_place(std::span<const PlacedColour> colours) {
@@ -36,13 +28,15 @@ MouthSamples by_place(std::span<const PlacedColour> colours) {
         if (c.far > kSkinFrom) guess.skin.push_back(c.colour);
         if (c.far < kLipsWithin) middle.push_back(c.colour);
     }
-    const Spread redness = spread_of(guess.skin, pseudo_hue);
-    const double pale = redness.mean - kPale * redness.sd, dark = kDark * spread_of(middle, brightness).mean;
+    const double dark = kDark * mean_of(middle, brightness),
+                 red = 0.5 * (mean_of(guess.skin, pseudo_hue) + mean_of(middle, pseudo_hue));
     for (const PlacedColour& c : colours) {
         if (c.far >= kLipsWithin) continue;
-        const bool lips = brightness(c.colour) >= dark && pseudo_hue(c.colour) >= pale;
-        if (lips) guess.lips.push_back(c.colour);
-        if (!lips && c.far < kOpeningWithin && c.height < kOpeningHeight) guess.opening.push_back(c.colour);
+        const bool is_dark = brightness(c.colour) < dark, is_red = pseudo_hue(c.colour) >= red;
+        const bool opening =
+            (is_dark && c.far < kOpeningWithin && c.height < kOpeningHeight) || (!is_red && c.far < kCentre);
+        if (opening) guess.opening.push_back(c.colour);
+        if (!opening && !is_dark) guess.lips.push_back(c.colour);
     }
     return guess;
 }

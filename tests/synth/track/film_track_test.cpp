@@ -51,6 +51,7 @@ fs::path plain_film(const std::string& name, std::uint8_t shade, int frames) {
 // In every word with p, b or m the lips close to 15% of the widest.
 void expect_closures(const fs::path& clip, const Motion& motion) {
     const auto& opening = column(motion, "opening_mm").values;
+    EXPECT_GT(std::ranges::max(opening), 5);  // mm
     for (const auto& word : test::bilabials(fs::path(clip).replace_extension(".align"))) {
         const double least = *std::min_element(opening.begin() + word.first, opening.begin() + word.last);
         EXPECT_LT(least, 0.15 * std::ranges::max(opening)) << word.word;
