@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "lipmodel/lip_regions.hpp"
 #include "lipmodel/lip_thickness.hpp"
+#include "lipmodel/median.hpp"
 #include "lipmodel/mouth_samples.hpp"
 
 namespace viaface {
@@ -31,12 +32,6 @@ Extent border_extent(const LipModel& model) {
     const auto border = shape.middleRows(LipMesh::node(LipMesh::kBorderRing, 0), LipMesh::kColumns);
     const Eigen::RowVector3d least = border.colwise().minCoeff(), most = border.colwise().maxCoeff();
     return {0.5 * (least + most).transpose(), (most - least).transpose()};
-}
-
-template <typename T>
-T median(std::vector<T> values) {
-    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-    return values[values.size() / 2];
 }
 
 // One of the first pictures, evened, while scales and classes are fitted.

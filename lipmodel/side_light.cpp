@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lipmodel/lower_face.hpp"
+#include "lipmodel/median.hpp"
 
 namespace viaface {
 namespace {
@@ -14,12 +15,6 @@ constexpr double kNearest = 0.2, kFarthest = 0.6, kFrom = 0.6, kTo = 1.5, kStep 
 Eigen::Vector3d log_colour(const Picture& picture, const Eigen::Vector2d& place) {
     const Rgb c = colour_near(picture, place);
     return {std::log(c[0] + 1.0), std::log(c[1] + 1.0), std::log(c[2] + 1.0)};
-}
-
-double middle_value(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 }  // namespace
@@ -36,7 +31,7 @@ SideLight side_light(const Picture& picture, const FaceInPicture& face) {
             for (int c = 0; c < 3; ++c) slopes[c].push_back(slope[c]);
         }
     }
-    return {{middle_value(slopes[0]), middle_value(slopes[1]), middle_value(slopes[2])}};
+    return {{median(slopes[0]), median(slopes[1]), median(slopes[2])}};
 }
 
 std::vector<std::uint8_t> evened(const Picture& picture, const PictureBox& box, const SideLight& light,
