@@ -78,10 +78,15 @@ std::vector<PlacedColour> colours_about(const Picture& picture, const FaceInPict
 
 MouthSamples first_samples(std::span<const PlacedColour> colours, const LearnClasses& learn) {
     MouthSamples samples = by_place(colours);
-    for (int round = 0; round < kRounds; ++round) {
-        MouthSamples next = by_colour(colours, learn(samples));
+    ColourClasses classes = learn(samples);
+    for (int round = 0;; ++round) {
+        MouthSamples next = by_colour(colours, classes);
         samples.lips = std::move(next.lips);
         samples.skin = std::move(next.skin);
+        if (round + 1 == kRounds) break;
+        const std::optional<ColourMixture> opening = std::move(classes.opening);  // its samples stay
+        classes = learn({samples.lips, samples.skin, {}});
+        classes.opening = opening;
     }
     return samples;
 }
