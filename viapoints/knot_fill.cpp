@@ -39,10 +39,11 @@ std::vector<std::size_t> KnotLine::evenly() const {
 std::vector<std::size_t> KnotLine::split(const std::vector<std::size_t>& samples) const {
     const std::size_t gaps = samples.size() - 1;
     const auto beyond = [&](std::size_t gap) {
-        return std::any_of(fits_.begin(), fits_.end(), [&](const StrandFit& fit) {
-            return std::any_of(fit.miss.begin() + static_cast<std::ptrdiff_t>(samples[gap]),
-                               fit.miss.begin() + static_cast<std::ptrdiff_t>(samples[gap + 1]) + 1,
-                               [&](double miss) { return miss > limit_mm2_; });
+        return std::any_of(fits_.begin(), fits_.end(), [&](const BraidFit& fit) {
+            return std::any_of(
+                &fit.miss[samples[gap]], &fit.miss[samples[gap + 1]] + 1, [&](const Lanes& miss) {
+                    return std::ranges::any_of(miss.lane, [&](double one) { return one > limit_mm2_; });
+                });
         });
     };
     const auto wide = [&](std::size_t gap) { return samples[gap + 1] - samples[gap] > 1; };
@@ -82,9 +83,9 @@ void KnotLine::set_line(const std::vector<std::size_t>& samples) {
                           .before = i - 1,
                           .after = i + 1 < count ? i + 1 : kNone});
     }
-    for (std::size_t s = 0; s < strands_.size(); ++s) {
-        controls_[s] = fits_[s].control;
-        strands_[s].miss = fits_[s].miss;
+    for (std::size_t b = 0; b < braids_.size(); ++b) {
+        controls_[b] = fits_[b].control;
+        braids_[b].miss = fits_[b].miss;
     }
 }
 
@@ -98,9 +99,9 @@ void KnotLine::fill() {
         for (const std::size_t sample : samples) stretch_.times.push_back(target_.time_s[sample]);
         stretch_.fit.controls = stretch_.fit.free_end = static_cast<int>(samples.size());
         find_rows();
-        for (std::size_t s = 0; s < strands_.size(); ++s) {
-            hold(s);
-            fit(s, 1);
+        for (std::size_t b = 0; b < braids_.size(); ++b) {
+            hold(b);
+            fit(b, 1);
         }
         std::vector<std::size_t> more = split(samples);
         if (more.size() == samples.size()) break;

@@ -18,26 +18,40 @@ constexpr double kRatioRounding = 1e-3;  // times are read from text
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double fourth_power(double x) { return x * x * x * x; }
+// Where the numbers of a dimension are.
+struct Place {
+    std::size_t braid = 0, vector = 0, lane = 0;
+};
 
-std::vector<Strand> strands_of(const AnalysisTarget& target) {
+Place place_of(Index dimension, bool points) {
+    const auto d = static_cast<std::size_t>(dimension);
+    if (points) return {d / 3 / kLanes, d % 3, d / 3 % kLanes};
+    return {0, d / kLanes, d % kLanes};
+}
+
+bool of_points(const AnalysisTarget& target) {
+    return target.modes.size() == 0 && target.values.cols() % 3 == 0;
+}
+
+std::vector<Braid> braids_of(const AnalysisTarget& target) {
+    const bool points = of_points(target);
     const Index dimensions = target.values.cols();
-    const bool points = target.modes.size() == 0 && dimensions % 3 == 0;
-    const Index width = points ? 3 : dimensions;
-    std::vector<Strand> strands(static_cast<std::size_t>(dimensions / width));
-    for (std::size_t s = 0; s < strands.size(); ++s) {
-        const Index samples = target.values.rows(), filled = width == 1 ? 1 : (width + 3) / 4 * 4;
-        strands[s].width = static_cast<int>(filled);
-        strands[s].value.assign(static_cast<std::size_t>(samples * filled), 0.0);
-        strands[s].emphasis.assign(static_cast<std::size_t>(samples), 1.0);
-        strands[s].miss.assign(static_cast<std::size_t>(samples), 0.0);
-        for (Index i = 0; i < samples; ++i) {
-            for (Index d = 0; d < width; ++d)
-                strands[s].value[static_cast<std::size_t>(i * filled + d)] =
-                    target.values(i, static_cast<Index>(s) * width + d);
+    const auto samples = static_cast<std::size_t>(target.values.rows());
+    std::vector<Braid> braids(place_of(dimensions - 1, points).braid + 1);
+    const std::size_t vectors = points ? 3 : place_of(dimensions - 1, false).vector + 1;
+    for (Braid& braid : braids) {
+        braid.vectors = static_cast<int>(vectors);
+        braid.value.assign(samples * vectors, {});
+        braid.emphasis.assign(samples, {{1, 1, 1, 1}});
+        braid.miss.assign(samples, {});
+    }
+    for (std::size_t i = 0; i < samples; ++i) {
+        for (Index d = 0; d < dimensions; ++d) {
+            const auto [b, k, lane] = place_of(d, points);
+            braids[b].value[i * vectors + k].lane[lane] = target.values(static_cast<Index>(i), d);
         }
     }
-    return strands;
+    return braids;
 }
 
 PointMeasure measure_of(const AnalysisTarget& target, int width) {
@@ -56,15 +70,17 @@ RowMatrix AnalysisTarget::differences(const RowMatrix& recovered) const {
     return difference * modes + residual;
 }
 
-KnotLine::KnotLine(const AnalysisTarget& target, double limit_mm, double max_gap_ratio)
+KnotLine::KnotLine(const AnalysisTarget& target, double limit_mm, double max_gap_ratio,
+                   const StrandKernel& kernel)
     : target_(target),
       limit_mm2_(limit_mm * limit_mm),
       max_gap_ratio_(max_gap_ratio * (1 + kRatioRounding)),
-      strands_(strands_of(target)),
-      controls_(strands_.size()),
-      fits_(strands_.size()) {
-    measure_ = measure_of(target, strands_.front().width);
-    for (std::size_t s = 0; s < strands_.size(); ++s) order_.push_back(s);
+      braids_(braids_of(target)),
+      controls_(braids_.size()),
+      fits_(braids_.size()),
+      bench_{.kernel = &kernel} {
+    measure_ = measure_of(target, kLanes * braids_.front().vectors);
+    for (std::size_t b = 0; b < braids_.size(); ++b) order_.push_back(b);
 }
 
 int KnotLine::before(int id, int count) const {
@@ -136,61 +152,60 @@ void KnotLine::find_rows() {
     const QuinticBasis basis(s.times, s.first_is_end, s.last_is_end);
     s.fit.first_sample = s.samples[at(first)];
     s.fit.rows.clear();
+    s.fit.starts = {0};
     for (int segment = first; segment <= last; ++segment) {
         const std::size_t begin = s.samples[at(segment)], end = s.samples[at(segment + 1)];
         basis.append_rows(segment, {&target_.time_s[begin], end - begin + (segment == last ? 1 : 0)},
                           s.fit.rows);
+        s.fit.starts.push_back(std::ssize(s.fit.rows));
     }
-    s.fit.find_products();
 }
 
 // How hard the limit presses in the stretch: dominated by the worst samples.
-double KnotLine::strain(std::size_t strand) const {
-    double sum = 0;
-    const double* miss = &strands_[strand].miss[stretch_.fit.first_sample];
-    for (std::size_t i = 0; i < stretch_.fit.rows.size(); ++i) sum += fourth_power(miss[i] / limit_mm2_);
-    return sum;
+double KnotLine::strain(const Lanes* miss) const {
+    return bench_.kernel->strain(std::ssize(stretch_.fit.rows), miss, limit_mm2_);
 }
 
-// The control points that the strand's fit begins with: those that are not free but under its samples.
-void KnotLine::hold(std::size_t strand) {
-    const auto width = at(strands_[strand].width);
-    std::vector<double>& held = fits_[strand].control;
+// The control points that the braid's fit begins with: those that are not free but under its samples.
+void KnotLine::hold(std::size_t braid) {
+    const auto vectors = at(braids_[braid].vectors);
+    std::vector<Lanes>& held = fits_[braid].control;
     const int all = stretch_.fit.controls + kSupport - 1;
-    held.resize(at(all) * width);
+    held.resize(at(all) * vectors);
     const auto copy = [&](int from, int to) {
         for (int i = from; i < to; ++i) {
             const int id = i < stretch_.fit.controls ? stretch_.ids[at(i)] : kNone;
             if (id == kNone)
-                std::fill_n(&held[at(i) * width], width, 0.0);
+                std::fill_n(&held[at(i) * vectors], vectors, Lanes{});
             else
-                std::copy_n(&controls_[strand][at(id) * width], width, &held[at(i) * width]);
+                std::copy_n(&controls_[braid][at(id) * vectors], vectors, &held[at(i) * vectors]);
         }
     };
-    copy(std::max(0, stretch_.fit.free_begin - 2 * kSupport), stretch_.fit.free_begin);
-    copy(stretch_.fit.free_end, std::min(all, stretch_.fit.free_end + 2 * kSupport));
+    copy(std::max(0, stretch_.fit.free_begin - kSupport), stretch_.fit.free_begin);
+    copy(stretch_.fit.free_end, std::min(all, stretch_.fit.free_end + kSupport));
 }
 
-bool KnotLine::fit(std::size_t strand, int rounds) {
+bool KnotLine::fit(std::size_t braid, int rounds) {
     Stretch& s = stretch_;
-    const bool even = strands_[strand].even(s.fit.first_sample, s.fit.rows.size());
-    if (even && !s.even_known) s.even.factor(s.fit, {});
+    const Lanes* emphasis = &braids_[braid].emphasis[s.fit.first_sample];
+    const bool even = bench_.kernel->even(std::ssize(s.fit.rows), emphasis);
+    if (even && !s.even_known) s.even.factor(*bench_.kernel, s.fit, emphasis);
     s.even_known |= even;
     evaluations_ += s.fit.rows.size();
-    return fits_[strand].within(strands_[strand], measure_, s.fit, even ? &s.even : nullptr, limit_mm2_,
-                                rounds, bench_);
+    return fits_[braid].within(braids_[braid], measure_, s.fit, even ? &s.even : nullptr, limit_mm2_, rounds,
+                               bench_);
 }
 
 bool KnotLine::fits(Aim aim) {
     double strained = 0, was = 0;
     stretch_.even_known = false;
     for (std::size_t o = 0; o < order_.size(); ++o) {
-        const std::size_t s = order_[o];
-        hold(s);
-        bool good = fit(s, aim == Aim::kRelief ? kReliefRounds : kRounds);
+        const std::size_t b = order_[o];
+        hold(b);
+        bool good = fit(b, aim == Aim::kRelief ? kReliefRounds : kRounds);
         if (good && aim == Aim::kRelief) {
-            was += strain(s);
-            for (const double miss : fits_[s].miss) strained += fourth_power(miss / limit_mm2_);
+            was += strain(&braids_[b].miss[stretch_.fit.first_sample]);
+            strained += strain(fits_[b].miss.data());
             good = strained <= kStrained * was;
         }
         if (good) continue;
@@ -231,14 +246,13 @@ void KnotLine::relink(int left, int right, const std::vector<std::size_t>& betwe
 
 void KnotLine::adopt() {
     const FitStretch& fit = stretch_.fit;
-    for (std::size_t s = 0; s < strands_.size(); ++s) {
-        const auto width = at(strands_[s].width);
+    for (std::size_t b = 0; b < braids_.size(); ++b) {
+        const auto vectors = at(braids_[b].vectors);
         for (int i = fit.free_begin; i < fit.free_end; ++i)
-            std::copy_n(&fits_[s].control[at(i) * width], width,
-                        &controls_[s][at(stretch_.ids[at(i)]) * width]);
-        const auto first = static_cast<std::ptrdiff_t>(fit.first_sample);
-        std::copy(fits_[s].emphasis.begin(), fits_[s].emphasis.end(), strands_[s].emphasis.begin() + first);
-        std::copy(fits_[s].miss.begin(), fits_[s].miss.end(), strands_[s].miss.begin() + first);
+            std::copy_n(&fits_[b].control[at(i) * vectors], vectors,
+                        &controls_[b][at(stretch_.ids[at(i)]) * vectors]);
+        std::ranges::copy(fits_[b].emphasis, &braids_[b].emphasis[fit.first_sample]);
+        std::ranges::copy(fits_[b].miss, &braids_[b].miss[fit.first_sample]);
     }
     for (int i = fit.free_begin; i < fit.free_end; ++i) knot(stretch_.ids[at(i)]).open = true;
 }
@@ -251,15 +265,16 @@ ViaPointTrack KnotLine::track() const {
     const QuinticBasis basis(track.time_s, true, true);
     const int last = static_cast<int>(ids.size()) - 1;
     for (int i = 0; i <= last; ++i) basis.append_rows(std::min(i, last - 1), {&track.time_s[at(i)], 1}, rows);
-    const Index dimensions = target_.values.cols(), width = dimensions / std::ssize(strands_);
+    const Index dimensions = target_.values.cols();
     track.points = RowMatrix::Zero(last + 1, dimensions);
-    for (Index i = 0; i <= last; ++i) {
-        const QuinticRow& row = rows[static_cast<std::size_t>(i)];
-        for (Index d = 0; d < dimensions; ++d) {
-            const auto s = static_cast<std::size_t>(d / width), k = static_cast<std::size_t>(d % width);
+    for (Index d = 0; d < dimensions; ++d) {
+        const auto [b, k, lane] = place_of(d, of_points(target_));
+        const auto vectors = at(braids_[b].vectors);
+        for (Index i = 0; i <= last; ++i) {
+            const QuinticRow& row = rows[static_cast<std::size_t>(i)];
             for (int r = 0; r < kSupport && row.first + r <= last; ++r)
                 track.points(i, d) +=
-                    row.weight[at(r)] * controls_[s][at(ids[at(row.first + r)]) * at(strands_[s].width) + k];
+                    row.weight[r] * controls_[b][at(ids[at(row.first + r)]) * vectors + k].lane[lane];
         }
     }
     return track;

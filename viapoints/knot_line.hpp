@@ -25,7 +25,8 @@ struct AnalysisTarget {
 
 class KnotLine {
   public:
-    KnotLine(const AnalysisTarget& target, double limit_mm, double max_gap_ratio);
+    KnotLine(const AnalysisTarget& target, double limit_mm, double max_gap_ratio,
+             const StrandKernel& kernel = best_kernel());
 
     void fill();          // knots enough for plain least squares to stay within the limit
     std::size_t thin();   // takes out what can be spared; how many went
@@ -70,9 +71,9 @@ class KnotLine {
     void gather(int left, int right, const std::vector<std::size_t>& between);
     bool gaps_allowed(int left, int right) const;
     void find_rows();
-    double strain(std::size_t strand) const;
-    void hold(std::size_t strand);
-    bool fit(std::size_t strand, int rounds);
+    double strain(const Lanes* miss) const;
+    void hold(std::size_t braid);
+    bool fit(std::size_t braid, int rounds);
     bool fits(Aim aim);
     bool replace(int left, int right, const std::vector<std::size_t>& between, Aim aim = Aim::kWithin);
     void relink(int left, int right, const std::vector<std::size_t>& between);
@@ -85,12 +86,12 @@ class KnotLine {
     const AnalysisTarget& target_;
     double limit_mm2_, max_gap_ratio_;
     PointMeasure measure_;
-    std::vector<Strand> strands_;
-    std::vector<std::size_t> order_;  // of strands: what last made a change fail is tried first
+    std::vector<Braid> braids_;
+    std::vector<std::size_t> order_;  // of braids: what last made a change fail is tried first
     std::vector<Knot> knots_;         // the first is the line's first; linked in order by before and after
-    std::vector<std::vector<double>> controls_;  // [strands][knots x width]
+    std::vector<std::vector<Lanes>> controls_;  // [braids][knots x vectors]
     Stretch stretch_;
-    std::vector<StrandFit> fits_;  // [strands]
+    std::vector<BraidFit> fits_;  // [braids]
     FitBench bench_;
     std::size_t evaluations_ = 0;
 };

@@ -29,14 +29,12 @@ double KnotLine::importance(int id) const {
     for (std::size_t i = 0; i < near.size(); ++i) times[i] = time(near[i]);
     const std::array<double, 7> weights = fifth_derivative_jump(times);
     double jump2 = 0;
-    for (std::size_t s = 0; s < strands_.size(); ++s) {
-        const auto width = at(strands_[s].width);
-        for (std::size_t k = 0; k < width; ++k) {
-            double jump = 0;
-            for (std::size_t i = 0; i < weights.size(); ++i)
-                jump += weights[i] * controls_[s][at(near[i + 2]) * width + k];
-            jump2 += jump * jump;
-        }
+    for (std::size_t b = 0; b < braids_.size(); ++b) {
+        const auto vectors = at(braids_[b].vectors);
+        std::array<const Lanes*, 7> control;
+        for (std::size_t i = 0; i < control.size(); ++i)
+            control[i] = &controls_[b][at(near[i + 2]) * vectors];
+        jump2 += bench_.kernel->jump(weights.data(), control.data(), braids_[b].vectors);
     }
     const double left = times[5] - times[4], right = times[6] - times[5];
     return std::sqrt(jump2) * std::pow(left * right / (left + right), 5);

@@ -8,6 +8,10 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// Times that rows are found for side by side.
+constexpr std::size_t kAtOnce = 4;
+typedef double Times __attribute__((vector_size(kAtOnce * sizeof(double))));
+
 }  // namespace
 
 double QuinticBasis::time(int i) const { return time_s_[at(std::clamp(i, 0, last_))]; }
@@ -62,35 +66,41 @@ void QuinticBasis::fold_ends(int segment, Weights& weight) const {
     }
 }
 
+void QuinticBasis::fold_row(int segment, QuinticRow& row) const {
+    Weights weight{};
+    std::copy_n(row.weight, kSupport, weight.begin() + 2);
+    fold_ends(segment, weight);
+    std::copy_n(weight.begin() + row.first - segment + 4, kSupport, row.weight);
+}
+
 void QuinticBasis::append_rows(int segment, std::span<const double> times_s,
                                std::vector<QuinticRow>& rows) const {
-    double inverse[kSupport][kSupport], left_of[kSupport], right_of[kSupport];
-    for (int j = 1; j < kSupport; ++j) {
-        left_of[j] = time(segment + 1 - j);
-        right_of[j] = time(segment + j);
-        for (int r = 0; r < j; ++r) inverse[j][r] = 1 / (time(segment + r + 1) - time(segment + 1 - j + r));
-    }
+    double near[2 * kSupport], inverse[kSupport][kSupport];  // near[kSupport]: where the segment ends
+    for (int i = 1; i < 2 * kSupport - 1; ++i) near[i] = time(segment + 1 + i - kSupport);
+    for (int j = 1; j < kSupport; ++j)
+        for (int r = 0; r < j; ++r) inverse[j][r] = 1 / (near[kSupport + r] - near[kSupport + r - j]);
     const bool folded = (first_is_end_ && segment < 2) || (last_is_end_ && segment > last_ - 3);
     const int first = first_is_end_ ? std::max(0, segment - 2) : segment - 2;
-    for (const double t : times_s) {
-        std::array<double, kSupport> n;
-        n[0] = 1;
+    for (std::size_t begin = 0; begin < times_s.size(); begin += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, times_s.size() - begin);
+        Times t, n[kSupport];
+        for (std::size_t i = 0; i < kAtOnce; ++i) t[i] = times_s[begin + std::min(i, count - 1)];
+        n[0] = Times{} + 1;
         for (int j = 1; j < kSupport; ++j) {
-            double carried = 0;
+            Times carried{};
             for (int r = 0; r < j; ++r) {
-                const double share = n[at(r)] * inverse[j][r];
-                n[at(r)] = carried + (right_of[r + 1] - t) * share;
-                carried = (t - left_of[j - r]) * share;
+                const Times share = n[r] * inverse[j][r];
+                n[r] = carried + (near[kSupport + r] - t) * share;
+                carried = (t - near[kSupport - j + r]) * share;
             }
-            n[at(j)] = carried;
+            n[j] = carried;
         }
-        if (folded) {
-            Weights weight{};
-            std::copy(n.begin(), n.end(), weight.begin() + 2);
-            fold_ends(segment, weight);
-            std::copy_n(weight.begin() + first - segment + 4, kSupport, n.begin());
+        for (std::size_t i = 0; i < count; ++i) {
+            QuinticRow& row = rows.emplace_back();
+            row.first = first;
+            for (int r = 0; r < kSupport; ++r) row.weight[r] = n[r][i];
+            if (folded) fold_row(segment, row);
         }
-        rows.push_back({n, first});
     }
 }
 

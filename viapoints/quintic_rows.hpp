@@ -15,7 +15,7 @@ namespace viaface {
 inline constexpr int kSupport = 6;  // control points that a sample depends on
 
 struct QuinticRow {
-    std::array<double, kSupport> weight;
+    double weight[kSupport];
     int first;  // the control point that weight[0] belongs to
 };
 
@@ -36,6 +36,7 @@ class QuinticBasis {
     static Fold fold(const std::array<double, 5>& distance);
     double time(int i) const;
     void fold_ends(int segment, Weights& weight) const;
+    void fold_row(int segment, QuinticRow& row) const;
 
     std::span<const double> time_s_;
     int last_;

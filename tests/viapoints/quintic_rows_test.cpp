@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/viapoints/smooth_motion.hpp"
 #include "viapoints/spline.hpp"
 
@@ -63,7 +65,27 @@ TEST(QuinticRows, APartOfALineGivesTheSameRowsInside) {
         inside.append_rows(segment, {&time, 1}, rows);
         whole.append_rows(segment + 4, {&time, 1}, expected);
         EXPECT_EQ(rows[0].first + 4, expected[0].first);
-        EXPECT_EQ(rows[0].weight, expected[0].weight);
+        EXPECT_TRUE(std::ranges::equal(rows[0].weight, expected[0].weight));
+    }
+}
+
+TEST(QuinticRows, RowsOfManyTimesAreThoseOfEach) {
+    Dice dice(4);
+    const std::vector<double> times = uneven_times(8, dice);
+    const QuinticBasis basis(times, true, true);
+    for (int segment = 0; segment < 7; ++segment) {
+        const double begin = times[static_cast<std::size_t>(segment)],
+                     end = times[static_cast<std::size_t>(segment) + 1];
+        std::vector<double> within;
+        for (int i = 0; i < 11; ++i) within.push_back(begin + (end - begin) * i / 11);
+        std::vector<QuinticRow> together, one_by_one;
+        basis.append_rows(segment, within, together);
+        for (const double& time : within) basis.append_rows(segment, {&time, 1}, one_by_one);
+        ASSERT_EQ(together.size(), within.size());
+        for (std::size_t i = 0; i < within.size(); ++i) {
+            EXPECT_EQ(together[i].first, one_by_one[i].first);
+            EXPECT_TRUE(std::ranges::equal(together[i].weight, one_by_one[i].weight));
+        }
     }
 }
 
