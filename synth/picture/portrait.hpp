@@ -1,8 +1,8 @@
 // Pictures of one face from one view. Lights, camera and textures are set up once; then each pose of the face
 // is drawn, and only where it differs from the pose before: the picture is the same, byte for byte, as if
 // it had been drawn whole. A Portrait serves one thread at a time; several Portraits are independent.
-// A node's way from rest is shortened by a hair, kHair, and rounded to kGrain: what hardly moves stands
-// still, and the way from standing to moving has no step.
+// A node's place is rounded to kGrain, and what is hardly off its rest stands still (least_ways.hpp); the way
+// from standing to moving has no step.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,6 @@ struct Drawing {
 class Portrait {
   public:
     static constexpr double kGrain = 1.0 / 64;  // mm
-    static constexpr double kHair = 0.1;        // pixels
 
     enum class Redraw { kChanged, kAll };
 

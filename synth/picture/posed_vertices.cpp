@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "synth/picture/key_shadow.hpp"
+#include "synth/picture/least_ways.hpp"
 #include "synth/picture/portrait.hpp"
 
 namespace viaface {
@@ -30,7 +31,7 @@ Eigen::Matrix4f clip_from_head(const View& view) {
 
 PosedVertices::PosedVertices(const Face& face, const View& view)
     : rest_(face.rest),
-      hair_(Portrait::kHair * pixel_size(view)),
+      least_ways_(least_ways(face, pixel_size(view))),
       node_normals_(face),
       mouth_light_(face),
       clip_from_head_(clip_from_head(view)),
@@ -46,8 +47,7 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
 void PosedVertices::place(const Nodes& posed) {
     for (Eigen::Index i = 0; i < posed.rows(); ++i) {
         const Eigen::RowVector3d way = posed.row(i) - rest_.row(i);
-        const double length = way.norm();
-        const double share = length > hair_ ? 1 - hair_ / length : 0;
+        const double share = drawn_share(way.squaredNorm(), least_ways_[i]);
         places_.row(i) = (rest_.row(i) + share * way).unaryExpr(&grained);
     }
 }

@@ -39,7 +39,7 @@ class PosedVertices {
     void place(const Nodes& posed);
 
     Nodes rest_;
-    double hair_;  // mm
+    Eigen::VectorXd least_ways_;  // mm
     NodeNormals node_normals_;
     MouthLight mouth_light_;
     Eigen::Matrix4f clip_from_head_;

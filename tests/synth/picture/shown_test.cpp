@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/whole_file.hpp"
-#include "facemodel/gltf.hpp"
+#include "momo_face.hpp"
 #include "simple_faces.hpp"
 #include "synth/picture/point_lights.hpp"
 #include "synth/picture/portrait.hpp"
@@ -18,12 +17,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::bytes;
-
-const Face& momo() {
-    static const Face face =
-        read_glb(read_bytes(std::filesystem::path(VIAFACE_SOURCE_DIR) / "talkers/momo/face.glb", "face"));
-    return face;
-}
+using testing::momo;
 
 int red(const FrameView& frame, int x, int row) { return frame.top_row[frame.stride * row + 4 * x]; }
 
