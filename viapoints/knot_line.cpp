@@ -265,13 +265,12 @@ ViaPointTrack KnotLine::track() const {
     const QuinticBasis basis(track.time_s, true, true);
     const int last = static_cast<int>(ids.size()) - 1;
     for (int i = 0; i <= last; ++i) basis.append_rows(std::min(i, last - 1), {&track.time_s[at(i)], 1}, rows);
-    const Index dimensions = target_.values.cols();
-    track.points = RowMatrix::Zero(last + 1, dimensions);
-    for (Index d = 0; d < dimensions; ++d) {
-        const auto [b, k, lane] = place_of(d, of_points(target_));
-        const auto vectors = at(braids_[b].vectors);
-        for (Index i = 0; i <= last; ++i) {
-            const QuinticRow& row = rows[static_cast<std::size_t>(i)];
+    track.points = RowMatrix::Zero(last + 1, target_.values.cols());
+    for (Index i = 0; i <= last; ++i) {
+        const QuinticRow& row = rows[static_cast<std::size_t>(i)];
+        for (Index d = 0; d < track.points.cols(); ++d) {
+            const auto [b, k, lane] = place_of(d, of_points(target_));
+            const auto vectors = at(braids_[b].vectors);
             for (int r = 0; r < kSupport && row.first + r <= last; ++r)
                 track.points(i, d) +=
                     row.weight[r] * controls_[b][at(ids[at(row.first + r)]) * vectors + k].lane[lane];

@@ -39,8 +39,9 @@ std::vector<int> measured_points(const RowMatrix& positions, const std::string& 
 
 RowMatrix coordinates_of(const RowMatrix& positions, const std::vector<int>& points) {
     RowMatrix packed(positions.rows(), static_cast<Index>(3 * points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        packed.middleCols<3>(static_cast<Index>(3 * i)) = positions.middleCols<3>(3 * points[i]);
+    for (Index row = 0; row < positions.rows(); ++row) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            packed.block<1, 3>(row, static_cast<Index>(3 * i)) = positions.block<1, 3>(row, 3 * points[i]);
     }
     return packed;
 }
