@@ -3,16 +3,6 @@
 #include <algorithm>
 
 namespace viaface {
-namespace {
-
-constexpr float kReach = 1.5f;  // pixels
-
-}  // namespace
-
-Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
-    return {std::min({a.x(), b.x(), c.x()}) - kReach, std::max({a.x(), b.x(), c.x()}) + kReach,
-            std::min({a.y(), b.y(), c.y()}) - kReach, std::max({a.y(), b.y(), c.y()}) + kReach};
-}
 
 Extent extent_of(const Rect& rect) {
     return {float(rect.left), float(rect.left + rect.width), float(rect.bottom),

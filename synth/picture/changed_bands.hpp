@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +16,12 @@ struct Extent {
 };
 
 // All of what a triangle can touch, the reach of its edges' samples included.
-Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c);
+inline Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
+    constexpr float kReach = 1.5f;  // pixels
+    return {
+        std::min(std::min(a.x(), b.x()), c.x()) - kReach, std::max(std::max(a.x(), b.x()), c.x()) + kReach,
+        std::min(std::min(a.y(), b.y()), c.y()) - kReach, std::max(std::max(a.y(), b.y()), c.y()) + kReach};
+}
 
 Extent extent_of(const Rect& rect);
 

@@ -32,7 +32,8 @@ Opening opening_of(const LipGrid& lips, const NodesF& places) {
     return corners;
 }
 
-constexpr int kAtOnce = 4;  // points
+constexpr int kAtOnce = 4;     // points
+constexpr int kInOneGo = 256;  // points, a multiple of kAtOnce
 using Numbers = Eigen::Array<float, kAtOnce, 1>;
 struct Vectors {
     Numbers x, y, z;
@@ -98,16 +99,21 @@ MouthLight::MouthLight(const Face& face) : lips_(face.lips) {
     }
 }
 
-void MouthLight::compute(const NodesF& places, const NodesF& normals, std::vector<float>& light) const {
+void MouthLight::compute(const NodesF& places, const NodesF& normals, WorkPool& pool,
+                         std::vector<float>& light) const {
     light.assign(places.rows(), 1.0f);
     if (!has_lips_) return;
     const Opening corners = opening_of(lips_, places);
-    for (std::size_t first = 0; first < inside_.size(); first += kAtOnce) {
-        const int* nodes = &inside_[first];
-        const int count = static_cast<int>(std::min<std::size_t>(kAtOnce, inside_.size() - first));
-        const Numbers lights = light_at(corners, rows(places, nodes, count), rows(normals, nodes, count));
-        for (int i = 0; i < count; ++i) light[nodes[i]] = in_steps(lights[i]);
-    }
+    const int nodes = static_cast<int>(inside_.size());
+    pool.share((nodes + kInOneGo - 1) / kInOneGo, [&](int item, int) {
+        const int end = std::min(nodes, (item + 1) * kInOneGo);
+        for (int first = item * kInOneGo; first < end; first += kAtOnce) {
+            const int* some = &inside_[first];
+            const int count = std::min(kAtOnce, end - first);
+            const Numbers lights = light_at(corners, rows(places, some, count), rows(normals, some, count));
+            for (int i = 0; i < count; ++i) light[some[i]] = in_steps(lights[i]);
+        }
+    });
     light_lips(places, light);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "synth/picture/surface_frame.hpp"
+#include "synth/picture/work_pool.hpp"
 
 namespace viaface {
 
@@ -18,7 +19,8 @@ class MouthLight {
   public:
     explicit MouthLight(const Face& face);
     // light[node], 0 to 1 in steps of 1/255; nodes outside the mouth are left alone (1).
-    void compute(const NodesF& places, const NodesF& normals, std::vector<float>& light) const;
+    void compute(const NodesF& places, const NodesF& normals, WorkPool& pool,
+                 std::vector<float>& light) const;
 
   private:
     void light_lips(const NodesF& places, std::vector<float>& light) const;

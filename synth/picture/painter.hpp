@@ -23,6 +23,7 @@ class Painter {
 
 std::unique_ptr<Painter> make_wire_painter(const Face& face, const View& view);
 std::unique_ptr<Painter> make_gl_painter(const Face& face, const View& view);
-std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, const Drawing& drawing);
+std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, Instructions instructions,
+                                             WorkPool& pool);
 
 }  // namespace viaface

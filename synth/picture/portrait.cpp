@@ -23,10 +23,11 @@ void check(const Face& face) {
     if (!fits) throw std::invalid_argument("a face whose parts, uvs or welds do not fit its nodes");
 }
 
-std::unique_ptr<Painter> make_painter(const Face& face, const View& view, const Drawing& drawing) {
+std::unique_ptr<Painter> make_painter(const Face& face, const View& view, const Drawing& drawing,
+                                      WorkPool& pool) {
     if (view.shown == Shown::kWireframe) return make_wire_painter(face, view);
     if (drawing.renderer == Renderer::kOsmesa) return make_gl_painter(face, view);
-    return make_raster_painter(face, view, drawing);
+    return make_raster_painter(face, view, drawing.instructions, pool);
 }
 
 std::vector<int> eye_nodes(const Face& face) {
@@ -55,7 +56,8 @@ class Portrait::Impl {
 
     Impl(const Face& face, const View& view, const Drawing& drawing)
         : view_(view),
-          painter_(make_painter(face, view, drawing)),
+          pool_(std::make_unique<WorkPool>(std::max(1, drawing.threads))),
+          painter_(make_painter(face, view, drawing, *pool_)),
           posed_(face, view),
           bands_(view.width, view.height),
           layers_(layers_of(face)),
@@ -64,7 +66,7 @@ class Portrait::Impl {
           rgba_(std::size_t(4) * view.width * view.height) {}
 
     FrameView draw(const Nodes& posed, Redraw redraw) {
-        cut_.empty() ? posed_.pose(posed) : posed_.pose(with_cut(posed, cut_));
+        cut_.empty() ? posed_.pose(posed, *pool_) : posed_.pose(with_cut(posed, cut_), *pool_);
         const Rect mouth = opening();
         const bool all = redraw == Redraw::kAll || !drawn_;
         const std::vector<Rect> rects = all ? std::vector{whole()} : changed(mouth);
@@ -138,6 +140,7 @@ class Portrait::Impl {
 
     View view_;
     std::vector<CutNode> cut_;  // nodes of the drawn face after those that are posed
+    std::unique_ptr<WorkPool> pool_;
     std::unique_ptr<Painter> painter_;
     PosedVertices posed_;
     ChangedBands bands_;

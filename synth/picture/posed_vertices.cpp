@@ -36,43 +36,55 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
       mouth_light_(face),
       clip_from_head_(clip_from_head(view)),
       half_picture_(0.5f * view.width, 0.5f * view.height),
-      places_(face.rest.rows(), 3),
+      places_(face.rest.cast<float>()),
+      moved_(face.rest.rows()),
       key_(key_shares(face, view)),
       vertices_(face.rest.rows()),
       kept_vertices_(face.rest.rows()),
       changed_(face.rest.rows()),
       pixels_(face.rest.rows()),
-      kept_pixels_(face.rest.rows()) {}
-
-void PosedVertices::place(const Nodes& posed) {
-    for (Eigen::Index i = 0; i < posed.rows(); ++i) {
-        const Eigen::RowVector3d way = posed.row(i) - rest_.row(i);
-        const double share = drawn_share(way.squaredNorm(), least_ways_[i]);
-        places_.row(i) = (rest_.row(i) + share * way).unaryExpr(&grained);
-    }
+      kept_pixels_(face.rest.rows()) {
+    node_normals_.compute(places_, normals_);
 }
 
-void PosedVertices::pose(const Nodes& posed) {
+void PosedVertices::place(const Nodes& posed, int node) {
+    const Eigen::RowVector3d way = posed.row(node) - rest_.row(node);
+    const double share = drawn_share(way.squaredNorm(), least_ways_[node]);
+    const Eigen::RowVector3f at = (rest_.row(node) + share * way).unaryExpr(&grained);
+    moved_[node] = at != places_.row(node);
+    places_.row(node) = at;
+}
+
+void PosedVertices::finish(int node) {
+    vertices_[node] = {{places_(node, 0), places_(node, 1), places_(node, 2)},
+                       {normals_(node, 0), normals_(node, 1), normals_(node, 2)},
+                       light_[node],
+                       key_[node]};
+    changed_[node] = vertices_[node] != kept_vertices_[node];
+    const Eigen::Vector4f clip = clip_from_head_ * places_.row(node).transpose().homogeneous();
+    pixels_[node] = ((clip.head<2>() / clip.w()).array() + 1)
+                        .matrix()
+                        .cwiseProduct(half_picture_)
+                        .unaryExpr(&within_reach);
+}
+
+void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
     if (posed.rows() != places_.rows()) {
         throw std::invalid_argument("a pose of " + std::to_string(posed.rows()) + " nodes for a face of " +
                                     std::to_string(places_.rows()));
     }
     if (!posed.allFinite()) throw std::invalid_argument("a pose with places that are not finite");
-    place(posed);
-    node_normals_.compute(places_, normals_);
-    mouth_light_.compute(places_, normals_, light_);
-    for (Eigen::Index i = 0; i < places_.rows(); ++i) {
-        vertices_[i] = {{places_(i, 0), places_(i, 1), places_(i, 2)},
-                        {normals_(i, 0), normals_(i, 1), normals_(i, 2)},
-                        light_[i],
-                        key_[i]};
-        changed_[i] = vertices_[i] != kept_vertices_[i];
-        const Eigen::Vector4f clip = clip_from_head_ * places_.row(i).transpose().homogeneous();
-        pixels_[i] = ((clip.head<2>() / clip.w()).array() + 1)
-                         .matrix()
-                         .cwiseProduct(half_picture_)
-                         .unaryExpr(&within_reach);
-    }
+    const auto for_nodes = [&](const auto& work) {
+        pool.share_rows(int(posed.rows()), [&](int first, int end) {
+            for (int node = first; node < end; ++node) work(node);
+        });
+    };
+    for_nodes([&](int node) { place(posed, node); });
+    for_nodes([&](int node) {
+        if (node_normals_.adjoins(node, moved_)) normals_.row(node) = node_normals_.at(node, places_);
+    });
+    mouth_light_.compute(places_, normals_, pool, light_);
+    for_nodes([&](int node) { finish(node); });
 }
 
 }  // namespace viaface

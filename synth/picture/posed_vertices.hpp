@@ -23,7 +23,7 @@ class PosedVertices {
   public:
     PosedVertices(const Face& face, const View& view);
 
-    void pose(const Nodes& posed);
+    void pose(const Nodes& posed, WorkPool& pool);
     std::span<const Vertex> vertices() const { return vertices_; }
     const Eigen::Vector2f& pixel(int node) const { return pixels_[node]; }  // from the lower left corner
 
@@ -36,7 +36,8 @@ class PosedVertices {
     const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }
 
   private:
-    void place(const Nodes& posed);
+    void place(const Nodes& posed, int node);
+    void finish(int node);
 
     Nodes rest_;
     Eigen::VectorXd least_ways_;  // mm
@@ -44,7 +45,9 @@ class PosedVertices {
     MouthLight mouth_light_;
     Eigen::Matrix4f clip_from_head_;
     Eigen::Vector2f half_picture_;
-    NodesF places_, normals_;
+    NodesF places_;
+    std::vector<std::uint8_t> moved_;  // of each node: 1 where its place is another than in the pose before
+    NodesF normals_;
     std::vector<float> light_, key_;
     std::vector<Vertex> vertices_, kept_vertices_;
     std::vector<std::uint8_t> changed_;  // of each node

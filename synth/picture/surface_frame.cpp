@@ -20,36 +20,44 @@ RowVector3f triangle_tangent(const Face& face, const Triangle& t, RowVector3f& b
 
 }  // namespace
 
-NodeNormals::NodeNormals(const Face& face) : weld_(face.weld) {
+NodeNormals::NodeNormals(const Face& face) {
     for (const FacePart& part : face.parts) {
-        for (const Triangle& t : part.triangles) {
-            triangles_.push_back({weld_[t[0]], weld_[t[1]], weld_[t[2]]});
-        }
+        for (const Triangle& t : part.triangles)
+            triangles_.push_back({face.weld[t[0]], face.weld[t[1]], face.weld[t[2]]});
+    }
+    std::vector<std::vector<int>> adjoining(face.weld.size());
+    for (int i = 0; i < int(triangles_.size()); ++i) {
+        for (const int node : triangles_[i]) adjoining[node].push_back(i);
+    }
+    for (const int first : face.weld) {
+        first_adjoining_.push_back(int(adjoining_.size()));
+        adjoining_.insert(adjoining_.end(), adjoining[first].begin(), adjoining[first].end());
+        end_adjoining_.push_back(int(adjoining_.size()));
     }
 }
 
 void NodeNormals::compute(const NodesF& places, NodesF& normals) const {
-    normals.setZero(places.rows(), 3);
-    for (const auto& [a, b, c] : triangles_) {
-        const RowVector3f at = places.row(a);
-        const RowVector3f twice_area = (places.row(b) - at).cross(places.row(c) - at);
-        normals.row(a) += twice_area;
-        normals.row(b) += twice_area;
-        normals.row(c) += twice_area;
+    normals.resize(places.rows(), 3);
+    for (int node = 0; node < int(places.rows()); ++node) normals.row(node) = at(node, places);
+}
+
+RowVector3f NodeNormals::at(int node, const NodesF& places) const {
+    RowVector3f sum = RowVector3f::Zero();
+    for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) {
+        const auto& [a, b, c] = triangles_[adjoining_[i]];
+        const RowVector3f from = places.row(a);
+        sum += (places.row(b) - from).cross(places.row(c) - from);
     }
-    for (Eigen::Index node = 0; node < places.rows(); ++node) {
-        const int first = weld_[node];
-        if (first != node) {
-            normals.row(node) = normals.row(first);
-            continue;
-        }
-        const float length = normals.row(node).norm();
-        if (length > 0) {
-            normals.row(node) /= length;
-        } else {
-            normals.row(node) = RowVector3f::UnitZ();
-        }
+    const float length = sum.norm();
+    return length > 0 ? RowVector3f(sum / length) : RowVector3f::UnitZ();
+}
+
+bool NodeNormals::adjoins(int node, std::span<const std::uint8_t> moved) const {
+    for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) {
+        const auto& [a, b, c] = triangles_[adjoining_[i]];
+        if ((moved[a] | moved[b] | moved[c]) != 0) return true;
     }
+    return false;
 }
 
 Tangents rest_tangents(const Face& face, const NodesF& normals) {

@@ -2,6 +2,8 @@
 // place (Face::weld) share a normal, so that no seam shows.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "facemodel/face.hpp"
@@ -13,11 +15,15 @@ using NodesF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;  // [no
 class NodeNormals {
   public:
     explicit NodeNormals(const Face& face);
-    void compute(const NodesF& places, NodesF& normals) const;  // unit length; (0, 0, 1) where undefined
+    void compute(const NodesF& places, NodesF& normals) const;
+    Eigen::RowVector3f at(int node, const NodesF& places) const;  // unit length; (0, 0, 1) where undefined
+    // Whether a triangle that adjoins the node has a corner that is 1 in `moved`, [nodes].
+    bool adjoins(int node, std::span<const std::uint8_t> moved) const;
 
   private:
-    std::vector<Triangle> triangles_;  // of welded nodes
-    std::vector<int> weld_;
+    std::vector<Triangle> triangles_;                   // of welded nodes
+    std::vector<int> adjoining_;                        // triangles, node after node
+    std::vector<int> first_adjoining_, end_adjoining_;  // of each node
 };
 
 // [nodes x 4]: unit direction of rising u at rest, and in column 4 the sign that makes

@@ -32,7 +32,8 @@ float light_of_node(const Face& face) {
     NodesF normals = NodesF::Zero(face.rest.rows(), 3);
     normals.col(2).setOnes();
     std::vector<float> light;
-    MouthLight(face).compute(face.rest.cast<float>(), normals, light);
+    WorkPool pool(1);
+    MouthLight(face).compute(face.rest.cast<float>(), normals, pool, light);
     return light.back();
 }
 
@@ -62,7 +63,8 @@ TEST(MouthLight, LipsDarkenWhereTheyTouch) {
     const auto darkest = [](double half_height) {
         const Face face = ring_and_node(20, half_height, 25);
         std::vector<float> light;
-        MouthLight(face).compute(face.rest.cast<float>(), NodesF::Zero(face.rest.rows(), 3), light);
+        WorkPool pool(1);
+        MouthLight(face).compute(face.rest.cast<float>(), NodesF::Zero(face.rest.rows(), 3), pool, light);
         return light[face.lips.node(LipGrid::kRows - 1, 0)];
     };
     EXPECT_LT(darkest(0.01), 0.3);

@@ -4,7 +4,7 @@
 
 #include "simple_faces.hpp"
 #include "synth/picture/portrait.hpp"
-#include "synth/picture/stripe_pool.hpp"
+#include "synth/picture/work_pool.hpp"
 
 namespace viaface {
 namespace {
@@ -23,9 +23,9 @@ TEST(Raster, AnyNumberOfThreadsGivesTheSameBytes) {
     }
 }
 
-TEST(StripePool, DoesEveryItemOnce) {
+TEST(WorkPool, DoesEveryItemOnce) {
     for (const int threads : {1, 2, 5}) {
-        StripePool pool(threads);
+        WorkPool pool(threads);
         for (const int items : {0, 1, 3, 100}) {
             std::vector<std::atomic<int>> done(items);
             pool.share(items, [&](int item, int) { ++done[item]; });

@@ -9,18 +9,21 @@
 
 namespace viaface {
 
-class StripePool {
+class WorkPool {
   public:
     using Work = std::function<void(int item, int thread)>;  // may not throw
+    using Rows = std::function<void(int first, int end)>;    // may not throw
 
-    explicit StripePool(int threads);
-    ~StripePool();
-    StripePool(const StripePool&) = delete;
-    StripePool& operator=(const StripePool&) = delete;
+    explicit WorkPool(int threads);
+    ~WorkPool();
+    WorkPool(const WorkPool&) = delete;
+    WorkPool& operator=(const WorkPool&) = delete;
 
     int threads() const { return static_cast<int>(workers_.size()) + 1; }
     // Does items 0 to `items` - 1, each once; returns when all are done.
     void share(int items, const Work& work);
+    // Does rows 0 to `rows` - 1, each once, some thousand at a time.
+    void share_rows(int rows, const Rows& work);
 
   private:
     void serve(int thread);

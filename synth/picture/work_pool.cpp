@@ -1,12 +1,19 @@
-#include "synth/picture/stripe_pool.hpp"
+#include "synth/picture/work_pool.hpp"
+
+#include <algorithm>
 
 namespace viaface {
+namespace {
 
-StripePool::StripePool(int threads) {
+constexpr int kRowsAtOnce = 2048;
+
+}  // namespace
+
+WorkPool::WorkPool(int threads) {
     for (int thread = 1; thread < threads; ++thread) workers_.emplace_back([this, thread] { serve(thread); });
 }
 
-StripePool::~StripePool() {
+WorkPool::~WorkPool() {
     {
         const std::lock_guard lock(mutex_);
         over_ = true;
@@ -15,7 +22,7 @@ StripePool::~StripePool() {
     for (std::thread& worker : workers_) worker.join();
 }
 
-void StripePool::share(int items, const Work& work) {
+void WorkPool::share(int items, const Work& work) {
     std::unique_lock lock(mutex_);
     work_ = &work;
     next_ = 0;
@@ -25,7 +32,12 @@ void StripePool::share(int items, const Work& work) {
     done_.wait(lock, [&] { return unfinished_ == 0; });
 }
 
-void StripePool::serve(int thread) {
+void WorkPool::share_rows(int rows, const Rows& work) {
+    share((rows + kRowsAtOnce - 1) / kRowsAtOnce,
+          [&](int item, int) { work(item * kRowsAtOnce, std::min(rows, (item + 1) * kRowsAtOnce)); });
+}
+
+void WorkPool::serve(int thread) {
     std::unique_lock lock(mutex_);
     while (true) {
         called_.wait(lock, [&] { return over_ || next_ < items_; });
@@ -34,7 +46,7 @@ void StripePool::serve(int thread) {
     }
 }
 
-void StripePool::take_items(std::unique_lock<std::mutex>& lock, int thread) {
+void WorkPool::take_items(std::unique_lock<std::mutex>& lock, int thread) {
     while (next_ < items_) {
         const int item = next_++;
         lock.unlock();

@@ -1,0 +1,54 @@
+#include "synth/picture/stripe_lists.hpp"
+
+#include <algorithm>
+
+namespace viaface {
+
+using raster::Bounds;
+
+Bounds box_of(const Visible& visible, int facet) {
+    const auto& [a, b, c] = visible.facets[facet].node;
+    const Bounds box = raster::box_of(visible.places[a], visible.places[b], visible.places[c]);
+    return visible.facets[facet].inside ? raster::common(box, visible.opening) : box;
+}
+
+StripeLists::StripeLists(int height)
+    : height_(height), rows_((height + raster::kStripeRows - 1) / raster::kStripeRows) {}
+
+void StripeLists::list(std::span<const Rect> rects, const Visible& visible) {
+    count_ = 0;
+    for (std::vector<int>& row : rows_) row.clear();
+    for (const Rect& rect : rects) cut(rect);
+    list_facets(visible);
+}
+
+void StripeLists::cut(const Rect& rect) {
+    const int top = rect.bottom + rect.height;
+    for (int bottom = rect.bottom; bottom < top;) {
+        const int row = bottom / raster::kStripeRows;
+        const int end = std::min(top, (row + 1) * raster::kStripeRows);
+        if (stripes_.size() == count_) stripes_.emplace_back();
+        stripes_[count_].bounds = {rect.left, bottom, rect.left + rect.width, end};
+        stripes_[count_].facets.clear();
+        rows_[row].push_back(int(count_++));
+        bottom = end;
+    }
+}
+
+void StripeLists::list_facets(const Visible& visible) {
+    for (int i = 0; i < int(visible.facets.size()); ++i) {
+        if (!visible.seen[i]) continue;
+        const Bounds box = box_of(visible, i);
+        const int first = std::max(0, box.bottom) / raster::kStripeRows;
+        const int last = std::min(height_, box.top) - 1;
+        for (int row = first; row * raster::kStripeRows <= last; ++row) {
+            for (const int stripe : rows_[row]) {
+                const Bounds& within = stripes_[stripe].bounds;
+                if (box.left < within.right && box.right > within.left)
+                    stripes_[stripe].facets.push_back(std::uint32_t(i));
+            }
+        }
+    }
+}
+
+}  // namespace viaface

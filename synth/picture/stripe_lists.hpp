@@ -1,0 +1,44 @@
+// The stripes of the rectangles that are drawn again, each with the triangles that may show in it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "synth/picture/raster_scene.hpp"
+#include "synth/picture/rect.hpp"
+
+namespace viaface {
+
+struct StripeList {
+    raster::Bounds bounds;
+    std::vector<std::uint32_t> facets;  // in drawing order
+};
+
+// What may show of the picture's triangles: their corners, and which of them are seen at all.
+struct Visible {
+    std::span<const raster::Facet> facets;
+    std::span<const raster::Place> places;
+    std::span<const std::uint8_t> seen;  // of each facet
+    raster::Bounds opening;              // what is inside the mouth shows nowhere else
+};
+
+raster::Bounds box_of(const Visible& visible, int facet);
+
+class StripeLists {
+  public:
+    explicit StripeLists(int height);  // of the picture, pixels
+
+    void list(std::span<const Rect> rects, const Visible& visible);
+    std::span<const StripeList> stripes() const { return {stripes_.data(), count_}; }
+
+  private:
+    void cut(const Rect& rect);
+    void list_facets(const Visible& visible);
+
+    int height_;
+    std::vector<StripeList> stripes_;  // the first count_ are in use
+    std::size_t count_ = 0;
+    std::vector<std::vector<int>> rows_;  // the stripes of each row of stripes
+};
+
+}  // namespace viaface
