@@ -14,7 +14,12 @@ namespace viaface {
 
 Bytes write_glb(const Face& face, const std::string& copyright);
 
+enum class Textures {
+    kRead,
+    kLeft
+};  // left: a face to be measured, not drawn, is read in a third of the time
+
 // Reads what write_glb writes. InputError("face", what was met, what is allowed) for anything else.
-Face read_glb(std::span<const std::uint8_t> bytes);
+Face read_glb(std::span<const std::uint8_t> bytes, Textures textures = Textures::kRead);
 
 }  // namespace viaface

@@ -31,12 +31,12 @@ class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) { unpack(bytes); }
 
-    Face read() {
+    Face read(Textures textures) {
         const json& extras = json_.at("asset").at("extras").at("viaface");
         if (extras.at("format") != gltf::kFormat) refuse(extras.at("format").dump(), "format 1");
         read_parts();
         read_extras(extras);
-        read_textures();
+        if (textures == Textures::kRead) read_textures();
         return std::move(face_);
     }
 
@@ -217,9 +217,9 @@ class Reader {
 
 }  // namespace
 
-Face read_glb(std::span<const std::uint8_t> bytes) {
+Face read_glb(std::span<const std::uint8_t> bytes, Textures textures) {
     try {
-        return Reader(bytes).read();
+        return Reader(bytes).read(textures);
     } catch (const InputError&) {
         throw;
     } catch (const json::exception& error) {

@@ -16,9 +16,7 @@ void add_opening(std::vector<ColouredFace>& faces) {
     }
 }
 
-}  // namespace
-
-std::vector<ColouredFace> coloured_faces() {
+std::vector<ColouredFace> faces_of_the_mesh() {
     const LipMesh mesh = generic_lip_mesh();
     std::vector<ColouredFace> faces;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -27,6 +25,13 @@ std::vector<ColouredFace> coloured_faces() {
         faces.push_back({mesh.triangles[i], lips ? ColourClass::kLips : ColourClass::kSkin});
     }
     add_opening(faces);
+    return faces;
+}
+
+}  // namespace
+
+const std::vector<ColouredFace>& coloured_faces() {
+    static const std::vector<ColouredFace> faces = faces_of_the_mesh();
     return faces;
 }
 

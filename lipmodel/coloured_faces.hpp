@@ -15,7 +15,7 @@ struct ColouredFace {
     ColourClass colour;
 };
 // Skin and lips of the mesh, then what spans the opening between the inner edges.
-std::vector<ColouredFace> coloured_faces();
+const std::vector<ColouredFace>& coloured_faces();
 
 // px^2; 0 when the face is turned away.
 double visible_area(const Pixels& pixels, const Triangle& corners);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kLongestSide = 320;   // px of the picture that is searched
 constexpr int kSmallestFace = 20;   // px there
+constexpr double kGrowth = 1.4;     // of a face from one picture to another
+constexpr double kSame = 0.5;       // distances of the eyes: no other face is as near
 constexpr double kEyeHeight = 0.4;  // of the box, where eyes are in most faces
 constexpr double kEyeReach = 0.09;  // of the face's width
 constexpr double kEyePlace = 0.29;  // of the box, from its sides
@@ -65,17 +67,42 @@ cv::Rect largest(const std::vector<cv::Rect>& faces) {
                                      [](const cv::Rect& r) { return std::tuple(r.area(), -r.x, -r.y); });
 }
 
-// By the place of the eyes, in distances of the eyes, and by their distance. Boxes are in a picture so many
+// By the place of the eyes, in distances of the eyes, and by their distance. The box is in a picture so many
 // times smaller.
+double unlike(const cv::Rect& box, const FaceInPicture& before, double shrink) {
+    const double width = box.width * shrink;
+    const Eigen::Vector2d middle =
+        shrink * Eigen::Vector2d(box.x, box.y) + width * Eigen::Vector2d(0.5, kEyeHeight);
+    return (middle - before.middle()).norm() / before.eye_distance() +
+           std::abs(std::log((1 - 2 * kEyePlace) * width / before.eye_distance()));
+}
+
 cv::Rect most_like(const std::vector<cv::Rect>& faces, const FaceInPicture& before, double shrink) {
-    const auto unlike = [&](const cv::Rect& box) {
-        const double width = box.width * shrink;
-        const Eigen::Vector2d middle =
-            shrink * Eigen::Vector2d(box.x, box.y) + width * Eigen::Vector2d(0.5, kEyeHeight);
-        return (middle - before.middle()).norm() / before.eye_distance() +
-               std::abs(std::log((1 - 2 * kEyePlace) * width / before.eye_distance()));
-    };
-    return *std::ranges::min_element(faces, {}, unlike);
+    return *std::ranges::min_element(faces, {},
+                                     [&](const cv::Rect& box) { return unlike(box, before, shrink); });
+}
+
+std::vector<cv::Rect> faces_in(cv::CascadeClassifier& cascade, const cv::Mat& small, int least, int most) {
+    std::vector<cv::Rect> faces;
+    cascade.detectMultiScale(small, faces, 1.1, 3, 0, {least, least}, {most, most});
+    return faces;
+}
+
+// Faces of about the size that there was before, should one be where it was: most of the work is in the small
+// sizes. Else of all.
+std::vector<cv::Rect> faces_in(cv::CascadeClassifier& cascade, const cv::Mat& small,
+                               const std::optional<FaceInPicture>& before, double shrink) {
+    const int all = std::min(small.cols, small.rows);
+    if (before) {
+        const double width = before->eye_distance() / (1 - 2 * kEyePlace) / shrink;
+        const int least = static_cast<int>(width / kGrowth), most = static_cast<int>(width * kGrowth);
+        if (least > kSmallestFace) {
+            auto faces = faces_in(cascade, small, least, std::min(most, all));
+            if (!faces.empty() && unlike(most_like(faces, *before, shrink), *before, shrink) < kSame)
+                return faces;
+        }
+    }
+    return faces_in(cascade, small, kSmallestFace, all);
 }
 
 }  // namespace
@@ -103,8 +130,7 @@ std::optional<FaceInPicture> FaceFinder::find(const Picture& picture,
     const double shrink = std::max(1.0, std::max(picture.width, picture.height) / double{kLongestSide});
     cv::Mat small;
     cv::resize(whole, small, {}, 1 / shrink, 1 / shrink, cv::INTER_AREA);
-    std::vector<cv::Rect> faces;
-    cascades_->face.detectMultiScale(small, faces, 1.1, 3, 0, {kSmallestFace, kSmallestFace});
+    const std::vector<cv::Rect> faces = faces_in(cascades_->face, small, before, shrink);
     if (faces.empty()) return std::nullopt;
     const cv::Rect box = before ? most_like(faces, *before, shrink) : largest(faces);
     std::vector<cv::Rect> eyes;

@@ -16,6 +16,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// From the place that the face suggests, and from the usual size: a prior by which most mouths are within a
+// tenth of it.
+constexpr PoseFreedom kTalkersFreedom{
+    .turn = kFirstFreedom.turn, .shift = kFirstFreedom.shift, .scale = 0.05};
 constexpr double kFocal = 1.5;             // of the picture's longer side
 constexpr double kLeastMouth = 12;         // px wide
 constexpr double kLeastSaturation = 0.05;  // of a lower face in colour
@@ -118,12 +122,13 @@ class FirstPictures {
     }
 
   private:
-    // Depth and scales from what was found.
+    // Depth and scales: colours tell how wide a mouth is less well than the distance of the eyes does.
     void place(const std::vector<Fitting>& fittings, double eye_distance_mm) {
-        std::vector<double> distances, widths, heights;
+        std::vector<double> distances, widths, usual_widths, heights;
         for (const Fitting& f : fittings) {
             distances.push_back(f.seen.face.eye_distance());
             widths.push_back(f.mouth.width);
+            usual_widths.push_back(f.seen.mouth ? f.mouth.width : usual_mouth(f.seen.face).width);
             heights.push_back(f.mouth.height);
         }
         mouth_.width_px = median(widths);
@@ -136,7 +141,7 @@ class FirstPictures {
                                      {0.5 * (picture.width - 1), 0.5 * (picture.height - 1)}},
                           .px_per_mm = median(distances) / eye_distance_mm,
                           .lips_centre = extent.centre};
-        mouth_.scale.x() = mouth_.width_px / (mouth_.placing.px_per_mm * extent.size.x());
+        mouth_.scale.x() = median(usual_widths) / (mouth_.placing.px_per_mm * extent.size.x());
         mouth_.scale.y() = std::clamp(median(heights) / (mouth_.placing.px_per_mm * extent.size.y()),
                                       0.7 * mouth_.scale.x(), 1.4 * mouth_.scale.x());
         mouth_.scale.z() = mouth_.scale.x();
@@ -152,9 +157,10 @@ class FirstPictures {
         }
         if (saturation(colours) < kLeastSaturation) refuse_colours();
         const auto learn = [](const MouthSamples& s) { return classes_of(s.lips, s.skin, s.opening); };
-        mouth_.classes = learn(first_samples(colours, learn));
+        mouth_.classes = first_classes(colours, learn);
+        const Vector3d usual = mouth_.scale;
         for (int round = 0; round < kRounds; ++round) {
-            fit(fittings);
+            fit(fittings, usual);
             adapt(fittings);
         }
         std::vector<double> across, down;
@@ -166,13 +172,14 @@ class FirstPictures {
         mouth_.below_eyes = {median(across), median(down)};
     }
 
-    // Every picture climbed with the scales free; then one scale for all.
-    void fit(std::vector<Fitting>& fittings) {
+    // Every picture climbed with the scales free about the usual ones, or classes and scales would lead each
+    // other astray; then one scale for all.
+    void fit(std::vector<Fitting>& fittings, const Vector3d& usual) {
         std::vector<double> x, y;
         for (Fitting& f : fittings) {
             const PictureBox box = mouth_.box(f.picture(), mouth_.placing.centre_of(f.pose));
-            f.pose.scale = mouth_.scale;
-            const ProbableLips found = mouth_.most_probable(f.picture(), box, f.pose, kFirstFreedom, {f.p});
+            f.pose.scale = usual;
+            const ProbableLips found = mouth_.most_probable(f.picture(), box, f.pose, kTalkersFreedom, {f.p});
             f.p = found.p;
             f.pose = found.pose;
             x.push_back(f.pose.scale.x());

@@ -139,38 +139,29 @@ double LipPosterior::mean_fit(const Eigen::VectorXd& theta) const {
     return area.sum() > 0 ? std::exp(of_colours / (gamma_ * area.sum())) : 0;
 }
 
-// d X_c / d(what of the pose is free) at a place [3 x free].
-Eigen::MatrixXd LipPosterior::pose_slopes(const Eigen::VectorXd& theta, const LipPose& pose,
-                                          const Eigen::Vector3d& in_camera) const {
-    Eigen::MatrixXd slopes(3, parameters() - model_.modes.cols());
-    const Eigen::Index modes = model_.modes.cols();
-    const Eigen::Vector3d arm = in_camera - pose.shift;
-    if (free_.turn >= 0)
-        slopes.middleCols<3>(free_.turn - modes) = -cross_matrix(arm) * turning_slope(at(theta, free_.turn));
-    if (free_.shift >= 0) slopes.middleCols<3>(free_.shift - modes).setIdentity();
-    if (free_.scale >= 0) {
-        const Eigen::Matrix3d turn = camera_from_head(pose);
-        slopes.middleCols<3>(free_.scale - modes) = turn * Eigen::Vector3d(turn.inverse() * arm).asDiagonal();
-    }
-    return slopes;
-}
-
 Eigen::MatrixXd LipPosterior::face_slopes(const Eigen::VectorXd& theta) const {
     const Projected seen = projected(theta);
+    return slopes_of(theta, seen, areas_of(seen));
+}
+
+Eigen::MatrixXd LipPosterior::slopes_of(const Eigen::VectorXd& theta, const Projected& seen,
+                                        const Eigen::VectorXd& areas) const {
     const LipPose pose = pose_of(theta);
-    const Eigen::Matrix3d turn = camera_from_head(pose);
-    const Eigen::Index modes = model_.modes.cols();
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(faces_.size(), parameters());
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-        const auto row = static_cast<Eigen::Index>(f);
-        const double area = visible_area(seen.pixels, faces_[f].corners);
-        if (!(area > 0)) continue;
-        const Eigen::Vector3d middle = centroid(seen.in_camera, faces_[f].corners);
-        const Eigen::RowVector3d per_mm =
-            gamma_ * area * map_of(faces_[f].colour).at(imaged(camera_, middle)).slope.transpose() *
-            pinhole_slope(camera_, middle);
-        slopes.row(row).head(modes) = per_mm * turn * face_modes_.middleRows(3 * row, 3);
-        slopes.row(row).tail(parameters() - modes) = per_mm * pose_slopes(theta, pose, middle);
+    const Eigen::Matrix3d turn = camera_from_head(pose), unturn = turn.inverse(),
+                          turning = turning_slope(at(theta, free_.turn));
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(areas.size(), parameters());
+    for (Eigen::Index f = 0; f < areas.size(); ++f) {
+        if (areas[f] == 0) continue;
+        const ColouredFace& face = faces_[static_cast<std::size_t>(f)];
+        const Eigen::Vector3d middle = centroid(seen.in_camera, face.corners), arm = middle - pose.shift;
+        const Eigen::RowVector2d per_px =
+            gamma_ * areas[f] * map_of(face.colour).at(imaged(camera_, middle)).slope.transpose();
+        const Eigen::RowVector3d per_mm = per_px * pinhole_slope(camera_, middle), in_head = per_mm * turn;
+        slopes.row(f).head(model_.modes.cols()) = in_head.lazyProduct(face_modes_.middleRows<3>(3 * f));
+        const auto of = [&](Eigen::Index first) { return slopes.block<1, 3>(f, first); };
+        if (free_.turn >= 0) of(free_.turn) = arm.cross(per_mm.transpose()).transpose() * turning;
+        if (free_.shift >= 0) of(free_.shift) = per_mm;
+        if (free_.scale >= 0) of(free_.scale) = (unturn * arm).transpose().cwiseProduct(in_head);
     }
     return slopes;
 }
@@ -180,9 +171,10 @@ Eigen::VectorXd LipPosterior::gradient(const Eigen::VectorXd& theta) const {
 }
 
 Eigen::VectorXd LipPosterior::ascent(const Eigen::VectorXd& theta) const {
-    const Eigen::MatrixXd slopes = face_slopes(theta);
-    const Eigen::VectorXd weight =
-        (gamma_ * areas(theta)).unaryExpr([](double w) { return w > 0 ? 1 / w : 0; });
+    const Projected seen = projected(theta);
+    const Eigen::VectorXd area = areas_of(seen);
+    const Eigen::MatrixXd slopes = slopes_of(theta, seen, area);
+    const Eigen::VectorXd weight = (gamma_ * area).unaryExpr([](double w) { return w > 0 ? 1 / w : 0; });
     Eigen::MatrixXd metric = slopes.transpose() * weight.asDiagonal() * slopes;
     metric.diagonal() += certainty_;
     const Eigen::VectorXd gradient = slopes.colwise().sum().transpose() - theta.cwiseProduct(certainty_);

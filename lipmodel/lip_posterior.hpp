@@ -59,15 +59,15 @@ class LipPosterior {
     double value_of(const Eigen::VectorXd& theta, const Projected& seen, const Eigen::VectorXd& areas) const;
     const LogMap& map_of(ColourClass colour) const;
     Eigen::Vector3d at(const Eigen::VectorXd& theta, Eigen::Index first) const;
-    Eigen::MatrixXd pose_slopes(const Eigen::VectorXd& theta, const LipPose& pose,
-                                const Eigen::Vector3d& in_camera) const;
+    Eigen::MatrixXd slopes_of(const Eigen::VectorXd& theta, const Projected& seen,
+                              const Eigen::VectorXd& areas) const;
 
     const LipModel& model_;
     const ClassMaps& maps_;
     Pinhole camera_;
     LipPose expected_;
     double gamma_;
-    std::vector<ColouredFace> faces_;
+    const std::vector<ColouredFace>& faces_;
     Eigen::MatrixXd face_modes_;  // [3 faces x M]: modes at the centroids, head frame
     Free free_;
     Eigen::VectorXd certainty_;  // [parameters] of the prior: 1 / lambda, 1 / sd^2

@@ -34,7 +34,7 @@ class LipTracker::Tracking {
             TrackedLips lips = followed(picture);
             if (lips.found) return lips;
         }
-        if (!find_again(picture, face ? face : finder_.find(picture, face_))) return {};
+        if (!find_again(picture, face ? face : found(picture))) return {};
         return followed(picture);
     }
 
@@ -92,6 +92,11 @@ class LipTracker::Tracking {
         return true;
     }
 
+    std::optional<FaceInPicture> found(const Picture& picture) {
+        if (!finder_) finder_.emplace();
+        return finder_->find(picture, face_);
+    }
+
     TrackedLips lose() {
         follower_.reset();
         doubted_ = 0;
@@ -101,7 +106,7 @@ class LipTracker::Tracking {
 
     KnownMouth mouth_;
     double eye_distance_mm_;
-    FaceFinder finder_;
+    std::optional<FaceFinder> finder_;   // once it is needed
     std::optional<FaceInPicture> face_;  // as it was found last
     Eigen::VectorXd still_, last_;
     std::optional<HeadFollower> follower_;

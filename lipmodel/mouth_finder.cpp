@@ -10,7 +10,7 @@ namespace viaface {
 namespace {
 
 // In distances of the eyes, from the middle between them.
-constexpr double kMouthBelow = 1.1, kMouthWidth = 0.8, kMouthHeight = 0.32;
+constexpr double kMouthBelow = 1.1, kMouthWidth = 0.82, kMouthHeight = 0.32;
 constexpr double kPlaceSdAcross = 0.3, kPlaceSdDown = 0.25;
 
 double otsu(std::vector<double> values) {

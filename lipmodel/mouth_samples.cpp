@@ -76,19 +76,14 @@ std::vector<PlacedColour> colours_about(const Picture& picture, const FaceInPict
     return colours;
 }
 
-MouthSamples first_samples(std::span<const PlacedColour> colours, const LearnClasses& learn) {
-    MouthSamples samples = by_place(colours);
-    ColourClasses classes = learn(samples);
-    for (int round = 0;; ++round) {
-        MouthSamples next = by_colour(colours, classes);
-        samples.lips = std::move(next.lips);
-        samples.skin = std::move(next.skin);
-        if (round + 1 == kRounds) break;
-        const std::optional<ColourMixture> opening = std::move(classes.opening);  // its samples stay
-        classes = learn({samples.lips, samples.skin, {}});
-        classes.opening = opening;
+ColourClasses first_classes(std::span<const PlacedColour> colours, const LearnClasses& learn) {
+    ColourClasses classes = learn(by_place(colours));
+    for (int round = 0; round < kRounds; ++round) {
+        ColourClasses next = learn(by_colour(colours, classes));
+        next.opening = std::move(classes.opening);  // its samples stay
+        classes = std::move(next);
     }
-    return samples;
+    return classes;
 }
 
 }  // namespace viaface

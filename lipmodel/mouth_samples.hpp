@@ -1,4 +1,4 @@
-// First samples of lips, skin and opening, before any model has been fitted. Place is what tells at first: an
+// First classes of lips, skin and opening, before any model has been fitted. Place is what tells at first: an
 // ellipse about the mouth holds lips, but for what is dark in its middle, or paler than the skin as teeth
 // are, and skin lies well outside. Then classes are learned and every colour goes, lips or skin, to the class
 // that it fits better, weighed by what is expected at its place: classification expectation maximisation
@@ -25,6 +25,6 @@ struct MouthSamples {
 };
 using LearnClasses = std::function<ColourClasses(const MouthSamples&)>;
 
-MouthSamples first_samples(std::span<const PlacedColour> colours, const LearnClasses& learn);
+ColourClasses first_classes(std::span<const PlacedColour> colours, const LearnClasses& learn);
 
 }  // namespace viaface

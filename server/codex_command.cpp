@@ -13,7 +13,6 @@
 #include "synth/learn/sentences.hpp"
 #include "synth/learn/take_files.hpp"
 #include "synth/motion/motion_input.hpp"
-#include "synth/talker/talker_shelf.hpp"
 #include "viapoints/codex_file.hpp"
 
 namespace viaface {
@@ -26,13 +25,6 @@ struct CodexOptions {
 };
 
 void tell(const std::string& line) { std::fprintf(stderr, "viaface: %s\n", line.c_str()); }
-
-std::filesystem::path talker_folder(const std::string& name) {
-    if (name.find('/') != std::string::npos) return name;
-    const TalkerShelf shelf(talkers_folder());
-    shelf.description(name);  // InputError for a name that is not there
-    return talkers_folder() / name;
-}
 
 double share_of(const std::string& text) {
     double percent = 0;

@@ -32,10 +32,13 @@ std::unique_ptr<FilmWriter> open_output(FilmSpec spec, const std::string& output
     return open_film(spec, std::filesystem::path(output));
 }
 
-std::shared_ptr<const Talker> talker_at(const std::string& name) {
+std::filesystem::path talker_folder(const std::string& name) {
     const bool folder = name.find('/') != std::string::npos;
-    if (folder) return std::make_shared<const Talker>(load_talker(name));
-    return TalkerShelf(talkers_folder()).load(name);
+    return folder ? std::filesystem::path(name) : TalkerShelf(talkers_folder()).path_of(name);
+}
+
+std::shared_ptr<const Talker> talker_at(const std::string& name) {
+    return std::make_shared<const Talker>(load_talker(talker_folder(name)));
 }
 
 void MotionRows::add(double time_s, const Configuration& points) {

@@ -17,6 +17,7 @@ namespace viaface {
 std::unique_ptr<FilmWriter> open_output(FilmSpec spec, const std::string& output);
 
 // A built-in talker by name, or a talker's folder (with a / in it).
+std::filesystem::path talker_folder(const std::string& name);
 std::shared_ptr<const Talker> talker_at(const std::string& name);
 
 // Frames as rows of a motion file, to a ten-thousandth of a mm.

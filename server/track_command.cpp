@@ -24,9 +24,9 @@ struct TrackOptions {
 
 LipModel model_of(const TrackOptions& options) {
     if (!options.lips.empty()) return with_modes(load_lip_model(options.lips), options.modes);
-    const auto talker = talker_at(options.talker);
-    LipModel model = learn_from(recited_lip_frames(*talker), {.modes = options.modes}, {});
-    model.provenance = "the recitations of the talker " + talker->name();
+    const Talker talker = load_talker(talker_folder(options.talker), Textures::kLeft);
+    LipModel model = learn_from(recited_lip_frames(talker), {.modes = options.modes}, {});
+    model.provenance = "the recitations of the talker " + talker.name();
     return model;
 }
 

@@ -90,12 +90,11 @@ LipFrames recited_lip_frames(const Talker& talker) {
     for (const Recitation& recitation : talker.codex.recitations) {
         ViaPointTrack track = track_of(recitation);
         if (track.time_s.size() < 2) continue;
-        track.points = to_points(talker.codex.basis, track.points);
         const MinimumJerkSpline spline(std::move(track));
         Motion motion;
         for (int n = 0; n / kRecitedRate <= duration_of(recitation); ++n)
             motion.time_s.push_back(n / kRecitedRate);
-        motion.positions = spline.at(motion.time_s);
+        motion.positions = to_points(talker.codex.basis, spline.at(motion.time_s));
         parts.push_back(frames_of(motion));
     }
     LipFrames frames = joined(parts);

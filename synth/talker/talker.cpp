@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "base/whole_file.hpp"
-#include "facemodel/gltf.hpp"
 #include "viapoints/codex_file.hpp"
 
 namespace viaface {
@@ -29,10 +28,10 @@ nlohmann::json read_talker_json(const fs::path& folder) {
     }
 }
 
-Talker load_talker(const fs::path& folder) {
+Talker load_talker(const fs::path& folder, Textures textures) {
     const auto bytes_of = [&](const char* name) { return read_bytes(folder / name, "talker", kLargestFile); };
     auto description = read_talker_json(folder);
-    Face face = read_glb(bytes_of("face.glb"));
+    Face face = read_glb(bytes_of("face.glb"), textures);
     Poser poser(face, read_training(bytes_of("estimators.bin")));
     return {std::move(description), std::move(face), read_codex(bytes_of("codex.via")), std::move(poser)};
 }

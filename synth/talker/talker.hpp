@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "facemodel/face.hpp"
+#include "facemodel/gltf.hpp"
 #include "synth/pose/pose.hpp"
 #include "viapoints/codex.hpp"
 
@@ -25,7 +25,7 @@ struct Talker {
 // talker.json, face.glb, estimators.bin and codex.via. InputError when the folder is none, or a file of it is
 // damaged.
 nlohmann::json read_talker_json(const std::filesystem::path& folder);
-Talker load_talker(const std::filesystem::path& folder);
+Talker load_talker(const std::filesystem::path& folder, Textures textures = Textures::kRead);
 
 // What talker.json says of every talker: how its files are to be read.
 nlohmann::json talker_description(const std::string& name, const std::string& summary);

@@ -22,11 +22,10 @@ class TalkerShelf {
     nlohmann::json description(const std::string& name) const;  // its talker.json
 
     // InputError("talker", name, ...) for a name that is not on the shelf.
+    std::filesystem::path path_of(const std::string& name) const;
     std::shared_ptr<const Talker> load(const std::string& name);
 
   private:
-    std::filesystem::path path_of(const std::string& name) const;
-
     std::filesystem::path folder_;
     std::mutex mutex_;
     std::map<std::string, std::shared_ptr<const Talker>> loaded_;

@@ -37,6 +37,7 @@ struct FirstLook {
     int factor = 1;
     std::deque<SmallPicture> pictures = {};
     std::vector<FaceSeen> seen = {};
+    bool at_once = false;  // in the first frame
     int faces = 1;
     bool eyes = false;
     int searched = 0;
@@ -87,6 +88,7 @@ FirstLook first_look(const TrackRequest& request) {
         before = face;
         look.add(frame, *face, by_hand ? request.hint->mouth : std::nullopt);
         first = std::min(first, n);
+        look.at_once = first == 0;
         if (look.seen.size() == kFaces) break;
     }
     if (look.seen.empty())
@@ -196,7 +198,7 @@ FilmTrack track_film(const LipModel& model, const TrackRequest& request, const T
     while (const auto timed = reader.next()) {
         const SmallPicture small = small_picture(timed->frame, look.factor);
         std::optional<FaceInPicture> face;
-        if (found.empty() && request.hint) face = scaled(request.hint->face, look.factor);
+        if (found.empty() && look.at_once) face = look.seen.front().face;
         TrackedLips lips = tracker.next(small.picture(), face);
         lips.pixels = lips.pixels.unaryExpr([&](double px) { return in_frame(px, look.factor); });
         rows.add(timed->time_s, lips);

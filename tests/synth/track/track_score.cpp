@@ -1,6 +1,6 @@
 // How well lips are tracked in the clips of a folder: track_score CLIPS MARKS [LIPS]. Prints the distance of
-// hand-made marks from the tracked contours, how far p, b and m close, frames lost, and
-// the processor's time.
+// hand-made marks from the tracked contours, how far p, b and m close, frames lost, and the processor's time.
+// Fails when a clip never opens: contours that stay shut may lie near the marks, and close every bilabial.
 #include <cstdio>
 #include <ctime>
 #include <set>
@@ -17,9 +17,12 @@ namespace {
 struct Totals {
     std::map<std::string, std::vector<double>> errors;  // by point
     std::vector<double> border, inner;
-    int frames = 0, lost = 0, clips = 0, clips_lost = 0, bilabials = 0, open = 0;
+    int frames = 0, lost = 0, clips = 0, clips_lost = 0, clips_shut = 0, bilabials = 0, open = 0;
+    double narrowest_mm = 1e9;  // of the clips' widest openings
     double seconds = 0, video_s = 0;
 };
+
+constexpr double kOpens = 5;  // mm, at the widest of a sentence
 
 std::vector<double> column(const Motion& motion, const std::string& name) {
     return std::ranges::find(motion.extra, name, &ExtraColumn::name)->values;
@@ -29,6 +32,11 @@ void closures(const fs::path& clip, const Motion& motion, Totals& totals) {
     const std::vector<double> opening = column(motion, "opening_mm");
     double widest = 0;
     for (const double mm : opening) widest = std::fmax(widest, mm);
+    totals.narrowest_mm = std::fmin(totals.narrowest_mm, widest);
+    if (widest <= kOpens) {
+        ++totals.clips_shut;
+        std::printf("%s: opens by %.1f mm at most\n", clip.stem().c_str(), widest);
+    }
     for (const auto& word : test::bilabials(fs::path(clip).replace_extension(".align"))) {
         double least = 1e9;
         for (int n = std::max(0, word.first); n <= word.last && n < static_cast<int>(opening.size()); ++n)
@@ -71,6 +79,8 @@ void print(const Totals& t) {
     for (const auto& [point, errors] : t.errors)
         std::printf("  %-20s %4zu  %.2f px\n", point.c_str(), errors.size(), test::median(errors));
     std::printf("p, b, m: %d of %d words not closed to 15%% of the clip's widest\n", t.open, t.bilabials);
+    std::printf("widest opening of a clip: %.1f mm or more; %d of %d clips open by no more than %.0f mm\n",
+                t.narrowest_mm, t.clips_shut, t.clips, kOpens);
     std::printf("lost: %d of %d frames, in %d of %d clips\n", t.lost, t.frames, t.clips_lost, t.clips);
     std::printf("%.1f s of video in %.1f s of one processor\n", t.video_s, t.seconds);
 }
@@ -98,9 +108,9 @@ int main(int argc, char** argv) {
             score(clip, model, found == marks.end() ? test::FrameMarks{} : found->second, totals);
         }
         print(totals);
+        return totals.clips_shut > 0 ? 1 : 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
     }
-    return 0;
 }
