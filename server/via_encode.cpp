@@ -75,7 +75,7 @@ int encode_live(const Options& options) {
         if (line.empty() || line[0] == '#') continue;
         const Motion row = parse_motion_csv(header + "\n" + line + "\n").motion;
         if (!encoder) {
-            encoder.emplace(*model, measured_points(row.positions, "motion"), row.time_s[0],
+            encoder.emplace(*model, row.time_s[0], row.at(0),
                             LiveOptions{options.stream.max_error_mm, options.look_ahead_s, 1});
             send(encoder->head());
         }

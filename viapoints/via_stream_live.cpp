@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "viapoints/measured.hpp"
+#include "viapoints/stream_basis.hpp"
 #include "viapoints/stream_choice.hpp"
 
 namespace viaface {
@@ -14,6 +16,7 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t kLongestHead = 1u << 20;
+constexpr std::size_t kFewPoints = 16;  // whose ways are no more than a talker has modes, about
 
 void append_row(Motion& motion, double time_s, const Configuration& row) {
     motion.time_s.push_back(time_s);
@@ -26,18 +29,42 @@ void drop_rows(Motion& motion, std::size_t count) {
     motion.positions = RowMatrix(motion.positions.bottomRows(static_cast<Index>(motion.time_s.size())));
 }
 
-std::vector<int> all_modes(const StreamModel& model) {
-    std::vector<int> modes(static_cast<std::size_t>(model.basis.size()));
+// Every coordinate of the points, one after the other, this far from the mean.
+RowMatrix every_way(const ConfigurationBasis& basis, const std::vector<int>& points) {
+    constexpr double kWay_mm = 30;
+    RowMatrix positions = basis.mean.transpose().replicate(3 * std::ssize(points), 1);
+    for (Index i = 0; i < positions.rows(); ++i)
+        positions(i, 3 * points[static_cast<std::size_t>(i / 3)] + i % 3) += kWay_mm;
+    return positions;
+}
+
+std::vector<int> first_modes(Index count) {
+    std::vector<int> modes(static_cast<std::size_t>(count));
     std::iota(modes.begin(), modes.end(), 0);
     return modes;
 }
 
+// The talker's modes. Where the points are too few to tell these apart, and the first row is none of his:
+// those that are independent there, and all other ways.
+StreamTools live_tools(const StreamModel& model, const Configuration& first, double max_error_mm) {
+    const RowMatrix row = first.transpose();
+    const std::vector<int> points = measured_points(row, "motion"), all = first_modes(model.basis.size()),
+                           independent = independent_modes(model.basis, points, static_cast<int>(all.size()));
+    StreamTools tools = shared_tools(model, points, max_error_mm, independent);
+    const double share = kBasisShare * tools.head.bound_mm;
+    const bool his = extended_basis(tools.basis, points, row, share).size() == tools.basis.size();
+    if (his || points.size() > kFewPoints) return shared_tools(model, points, max_error_mm, all);
+    tools.basis = extended_basis(tools.basis, points, every_way(tools.basis, points), share);
+    tools.statistics = with_components(tools.statistics, static_cast<int>(tools.basis.size()));
+    return tools;
+}
+
 }  // namespace
 
-LiveStreamEncoder::LiveStreamEncoder(const StreamModel& model, std::vector<int> points, double start_s,
+LiveStreamEncoder::LiveStreamEncoder(const StreamModel& model, double start_s, const Configuration& first,
                                      const LiveOptions& options)
     : options_(options),
-      tools_(shared_tools(model, std::move(points), options.max_error_mm, all_modes(model))),
+      tools_(live_tools(model, first, options.max_error_mm)),
       encoder_(tools_, {.rounds = options.rounds, .first_rate = kLiveRate, .few_modes = true}) {
     if (!(options.look_ahead_s >= 0.1 && options.look_ahead_s <= 10))
         throw InputError("look_ahead_s", std::to_string(options.look_ahead_s), "0.1 to 10");

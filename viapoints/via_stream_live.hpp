@@ -21,8 +21,10 @@ struct LiveOptions {
 
 class LiveStreamEncoder {
   public:
-    // Points whose motion will come; the basis is the model's and cannot grow.
-    LiveStreamEncoder(const StreamModel& model, std::vector<int> points, double start_s,
+    // For motion of the points that the first row has, from start_s on. The basis is the model's, and cannot
+    // grow; of few points of another person, it holds every way that they can go. The first row is to be
+    // pushed too.
+    LiveStreamEncoder(const StreamModel& model, double start_s, const Configuration& first,
                       const LiveOptions& options);
 
     LiveStreamEncoder(const LiveStreamEncoder&) = delete;

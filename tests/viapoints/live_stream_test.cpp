@@ -48,7 +48,7 @@ TEST(LiveStream, ComesOutWithinLookAheadAndDelay) {
     constexpr double kRate = 50, kDelay = 0.2;
     const LiveOptions options{.max_error_mm = 1, .look_ahead_s = 0.5};
     const Motion motion = smooth_motion(1, 4, kRate, kHeldPoints, 4);
-    LiveStreamEncoder encoder(model(), measured_points(motion.positions, "motion"), 0, options);
+    LiveStreamEncoder encoder(model(), 0, motion.at(0), options);
     LiveStreamDecoder decoder({&model()}, kRate);
     std::queue<std::pair<double, Bytes>> wire;
     Motion out{{}, RowMatrix(0, kCoordinates)};
@@ -80,6 +80,25 @@ TEST(LiveStream, ComesOutWithinLookAheadAndDelay) {
     ASSERT_EQ(out.size(), motion.size());
     EXPECT_LE(largest_error_mm(out.positions, motion), options.max_error_mm);
     EXPECT_LE(latest, options.look_ahead_s + kDelay + 1 / kRate + 1e-9);
+}
+
+// Two points lie where none of the talker's modes takes them.
+TEST(LiveStream, TellsFewPointsOfAnotherPerson) {
+    const StreamModel talker =
+        learn_stream_model("somebody", {smooth_motion(1, 4, 30, 8, 4)}, {.bounds_mm = {0.5, 2}});
+    ASSERT_LT(talker.basis.size(), 6);
+    Motion motion = smooth_motion(5, 2, 50, 2, 3);
+    motion.positions.leftCols(6).rowwise() += Eigen::RowVectorXd::LinSpaced(6, -20, 15);
+    const LiveOptions options{.max_error_mm = 1, .look_ahead_s = 0.5};
+    LiveStreamEncoder encoder(talker, 0, motion.at(0), options);
+    LiveStreamDecoder decoder({&talker}, 50);
+    decoder.feed(encoder.head());
+    for (std::size_t i = 0; i < motion.size(); ++i)
+        decoder.feed(encoder.push(motion.time_s[i], motion.at(i)));
+    decoder.feed(encoder.finish());
+    decoder.finish();
+    const DecodedStream& decoded = *decoder.decoded();
+    EXPECT_LE(largest_error_mm(decoded.positions(motion.time_s), motion), options.max_error_mm);
 }
 
 }  // namespace
