@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/median.hpp"
 #include "lipmodel/lip_regions.hpp"
 #include "lipmodel/lip_thickness.hpp"
-#include "lipmodel/median.hpp"
 #include "lipmodel/mouth_samples.hpp"
 
 namespace viaface {

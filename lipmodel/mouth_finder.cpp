@@ -43,7 +43,7 @@ struct Moments {
 struct Reds {
     LowerFace grid;
     std::vector<double> hues;  // [down x across]
-    double cut, skin_mean, skin_sd, lips_mean;
+    double cut;
 
     Reds(const Picture& picture, const FaceInPicture& face) : grid(face) {
         for (int j = 0; j < grid.down; ++j) {
@@ -51,21 +51,6 @@ struct Reds {
                 hues.push_back(pseudo_hue(colour_near(picture, grid.place(grid.right(i), grid.below(j)))));
         }
         cut = otsu(hues);
-        double below = 0, squares = 0, above = 0;
-        int n = 0, m = 0;
-        for (const double h : hues) {
-            if (h < cut) {
-                below += h;
-                squares += h * h;
-                ++n;
-            } else {
-                above += h;
-                ++m;
-            }
-        }
-        skin_mean = below / std::max(1, n);
-        skin_sd = std::sqrt(std::max(1e-6, squares / std::max(1, n) - skin_mean * skin_mean));
-        lips_mean = above / std::max(1, m);
     }
     double at(int i, int j) const { return hues[static_cast<std::size_t>(j) * grid.across + i]; }
 };
@@ -110,8 +95,7 @@ MouthInPicture find_mouth(const Picture& picture, const FaceInPicture& face) {
                  down = unwindowed(m.below2 / m.weight - centre_below * centre_below, sd_down);
     return {.centre = reds.grid.place(centre_right, centre_below),
             .width = std::clamp(std::sqrt(20.0) * across, 0.6 * far, 1.0 * far),
-            .height = std::clamp(std::sqrt(17.5) * down, 0.2 * far, 0.55 * far),
-            .redness = (reds.lips_mean - reds.skin_mean) / reds.skin_sd};
+            .height = std::clamp(std::sqrt(17.5) * down, 0.2 * far, 0.55 * far)};
 }
 
 double pseudo_hue(const Rgb& c) { return (c[0] + 5.0) / (c[0] + c[1] + 10.0); }

@@ -10,7 +10,6 @@ namespace viaface {
 struct MouthInPicture {
     Eigen::Vector2d centre;        // px
     double width = 0, height = 0;  // px, along and across the line of the eyes
-    double redness = 0;            // of lips beside skin, in standard deviations of the skin's; 0: none seen
 
     bool operator==(const MouthInPicture&) const = default;
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.hpp"
 #include "lipmodel/lower_face.hpp"
-#include "lipmodel/median.hpp"
 
 namespace viaface {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/median.hpp"
 #include "viapoints/face_axes.hpp"
 #include "viapoints/rest.hpp"
 
@@ -109,15 +110,13 @@ Person measure_person(const Motion& motion, const Configuration& talker_rest, co
 }
 
 Vector3d median_scale(const std::vector<Person>& recordings) {
-    Vector3d median;
+    Vector3d scale;
     for (Index axis = 0; axis < 3; ++axis) {
         std::vector<double> scales;
         for (const Person& person : recordings) scales.push_back(person.scale[axis]);
-        const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-        std::ranges::nth_element(scales, middle);
-        median[axis] = *middle;
+        scale[axis] = median(scales);
     }
-    return median;
+    return scale;
 }
 
 Motion as_talker(Motion motion, const Person& person, const Configuration& talker_rest) {

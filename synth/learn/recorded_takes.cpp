@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/median.hpp"
 #include "base/whole_file.hpp"
 #include "synth/align/align.hpp"
 #include "synth/align/labelled.hpp"
@@ -148,15 +149,13 @@ Configuration at_time(const Motion& motion, double time_s) {
 }
 
 Configuration median_of(const std::vector<Configuration>& configurations) {
-    Configuration median;
+    Configuration middle;
     std::vector<double> values(configurations.size());
-    for (Eigen::Index row = 0; row < median.size(); ++row) {
+    for (Eigen::Index row = 0; row < middle.size(); ++row) {
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = configurations[i][row];
-        std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                         values.end());
-        median[row] = values[values.size() / 2];
+        middle[row] = median(values);
     }
-    return median;
+    return middle;
 }
 
 // The points in the middle of the pauses before and after.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/median.hpp"
 #include "viapoints/cells.hpp"
 
 namespace viaface {
@@ -58,13 +59,11 @@ double unevenness(const std::vector<double>& times) {
     if (times.size() < 2) return 0;
     std::vector<double> steps;
     for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-    std::vector<double> sorted = steps;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    if (!(*middle > 0)) return std::numeric_limits<double>::infinity();
+    const double usual = median(steps);
+    if (!(usual > 0)) return std::numeric_limits<double>::infinity();
     double sum = 0;
-    for (const double step : steps) sum += std::abs(step - *middle);
-    return sum / *middle;
+    for (const double step : steps) sum += std::abs(step - usual);
+    return sum / usual;
 }
 
 std::vector<double> most_even_times(const std::vector<TimeCode>& codes) {

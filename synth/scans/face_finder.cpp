@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
 
+#include "base/median.hpp"
+
 namespace viaface {
 namespace {
 
@@ -42,16 +44,14 @@ cv::Mat grey_picture(const SurfaceView& view, bool painted) {
 }
 
 double median_depth(const SurfaceView& view, const cv::Rect& box) {
-    std::vector<float> depths;
+    std::vector<double> depths;
     for (int y = 2 * box.y + box.height / 2; y < 2 * box.y + 3 * box.height / 2; ++y) {
         for (int x = 2 * box.x + box.width / 2; x < 2 * box.x + 3 * box.width / 2; ++x) {
             const float z = view.depth[view.at(x, y)];
             if (!std::isnan(z)) depths.push_back(z);
         }
     }
-    if (depths.empty()) return 0;
-    std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
-    return depths[depths.size() / 2];
+    return depths.empty() ? 0 : median(depths);
 }
 
 int eyes_in(const cv::Mat& face) {

@@ -138,7 +138,6 @@ TEST(MouthFinder, FindsTheRedBelowTheEyes) {
     const auto border = truth.middleRows(LipMesh::node(LipMesh::kBorderRing, 0), LipMesh::kColumns);
     const Eigen::RowVector2d middle = 0.5 * (border.colwise().minCoeff() + border.colwise().maxCoeff());
     EXPECT_LT((mouth.centre.transpose() - middle).norm(), 0.1 * kEyeDistance);
-    EXPECT_GT(mouth.redness, 2);
 }
 
 TEST(HeadFollower, FindsAKnownMove) {
