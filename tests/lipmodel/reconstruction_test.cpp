@@ -64,7 +64,7 @@ TEST(Reconstruction, IsTheMostProbable) {
 TEST(Reconstruction, WithoutNoiseItIsLeastForceUnderTheLearnedPhysics) {
     // Fewer observations than modes: eqs. 2-4 with the learned K^-1 in place of the first one.
     const Learned& l = learned();
-    const std::vector<int> seen = {1, 5, 13, 14};
+    const std::vector<int> seen = {2, 3, 13, 14};  // the made-up movements show in each of them otherwise
     const auto marked = marked_nodes();
     Eigen::MatrixXd p_rows(seen.size(), LipMesh::kFreedoms);
     for (std::size_t i = 0; i < seen.size(); ++i) {
