@@ -11,6 +11,9 @@ using raster::Place;
 
 constexpr std::int32_t kNear = raster::kSteps;  // from an outline, either way
 
+std::int32_t floor_pixel(std::int32_t place) { return place >> 7; }
+static_assert(1 << 7 == raster::kSteps);
+
 // The way from `a` to `b` at a height, upwards.
 std::int32_t along(const Place& a, const Place& b, std::int32_t height) {
     if (height <= a.y) return a.x;
@@ -22,11 +25,7 @@ std::int32_t along(const Place& a, const Place& b, std::int32_t height) {
 
 FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const int> weld, int width,
                        int height)
-    : facets_(facets),
-      width_(width),
-      height_(height),
-      words_((width + 63) / 64 + 1),
-      bits_(std::size_t(words_) * height) {
+    : width_(width), height_(height), words_((width + 63) / 64 + 1), bits_(std::size_t(words_) * height) {
     std::map<std::pair<int, int>, std::size_t> known;  // edges by their welded nodes
     for (int i = 0; i < int(facets.size()); ++i) {
         if (facets[i].fine) covering_.push_back(i);
@@ -45,29 +44,25 @@ FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const in
     });
 }
 
-void FinePixels::find(std::span<const Place> places, std::span<const std::uint8_t> seen,
-                      const Bounds& opening) {
+void FinePixels::find(const Visible& visible) {
     std::ranges::fill(bits_, 0);
     for (const auto& [from, to, facets] : edges_) {
-        const bool first = seen[facets[0]], second = facets[1] != kNone && seen[facets[1]];
-        if (first != second) mark_outline(places[from], places[to]);
+        const bool first = visible.seen[facets[0]], second = facets[1] != kNone && visible.seen[facets[1]];
+        if (first != second) mark_outline(visible.nodes[from].place, visible.nodes[to].place);
     }
     for (const int i : covering_) {
-        if (!seen[i]) continue;
-        const auto& [a, b, c] = facets_[i].node;
-        const Bounds box = raster::box_of(places[a], places[b], places[c]);
-        mark(facets_[i].inside ? raster::common(box, opening) : box);
+        if (visible.seen[i]) mark(box_of(visible, i));
     }
 }
 
 void FinePixels::mark_outline(const Place& a, const Place& b) {
     const Place &low = a.y < b.y ? a : b, &high = a.y < b.y ? b : a;
-    const std::int32_t last = raster::floor_pixel(high.y + kNear);
-    for (std::int32_t y = raster::floor_pixel(low.y - kNear); y <= last; ++y) {
+    const std::int32_t last = floor_pixel(high.y + kNear);
+    for (std::int32_t y = floor_pixel(low.y - kNear); y <= last; ++y) {
         const std::int32_t under = along(low, high, y * raster::kSteps - kNear),
                            over = along(low, high, (y + 1) * raster::kSteps + kNear);
-        mark({raster::floor_pixel(std::min(under, over) - kNear), y,
-              raster::floor_pixel(std::max(under, over) + kNear) + 1, y + 1});
+        mark({floor_pixel(std::min(under, over) - kNear), y, floor_pixel(std::max(under, over) + kNear) + 1,
+              y + 1});
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "synth/picture/raster_scene.hpp"
+#include "synth/picture/stripe_lists.hpp"
 
 namespace viaface {
 
@@ -16,9 +17,7 @@ class FinePixels {
     // `weld` gives for each node the one that stands for all at its place.
     FinePixels(std::span<const raster::Facet> facets, std::span<const int> weld, int width, int height);
 
-    // `seen` is 1 for facets that may be seen; what is inside the mouth is seen through `opening` alone.
-    void find(std::span<const raster::Place> places, std::span<const std::uint8_t> seen,
-              const raster::Bounds& opening);
+    void find(const Visible& visible);  // of the facets given at first
 
     // [height x words], a bit for each pixel, the lowest first; one word is over in each row.
     const std::vector<std::uint64_t>& bits() const { return bits_; }
@@ -34,7 +33,6 @@ class FinePixels {
     void mark_outline(const raster::Place& a, const raster::Place& b);
     void mark(const raster::Bounds& box);
 
-    std::span<const raster::Facet> facets_;
     std::vector<Edge> edges_;
     std::vector<int> covering_;  // facets that are fine throughout
     int width_, height_, words_;

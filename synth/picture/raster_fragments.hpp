@@ -43,18 +43,29 @@ VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide 
     for (int i = 0; i < 8; ++i) channels[i] *= 1.0f / 255;
 }
 
-// The corners' shares at each fragment's middle, corrected for perspective.
-VIAFACE_INLINE void share_out(const Surface* const (&surfaces)[8], Wide x, Wide y, float (&shares)[3][8]) {
-    Wide weights[8];
-    for (int lane = 0; lane < 8; ++lane) {
-        const Surface& s = *surfaces[lane];
-        const Four weight = load<Four>(s.weight) + load<Four>(s.weight_right) * (x[lane] - s.x) +
-                            load<Four>(s.weight_up) * (y[lane] - s.y);
-        store(&weights[lane], greater(weight, load<Four>(s.least)));
+// The corners' shares at the fragments' middles, corrected for perspective. Fragments beyond an edge, whose
+// middle is not covered, take shares that end half a triangle from it.
+VIAFACE_INLINE void share_out(const Node* const (&corners)[3][8], WideInt x, WideInt y, Wide (&shares)[3]) {
+    Wide right[3], up[3], nearness[3];
+    for (int i = 0; i < 3; ++i) {
+        Four rows[8];
+        for (int lane = 0; lane < 8; ++lane) rows[lane] = load<Four>(&corners[i][lane]->place);
+        Wide columns[4];
+        turn(rows, columns);
+        right[i] = __builtin_convertvector(WideInt(columns[0]) - (x * kSteps + kSteps / 2), Wide);
+        up[i] = __builtin_convertvector(WideInt(columns[1]) - (y * kSteps + kSteps / 2), Wide);
+        nearness[i] = columns[2];
     }
-    transpose(weights);
-    const Wide whole = 1.0f / (weights[0] + weights[1] + weights[2]);
-    for (int i = 0; i < 3; ++i) store(shares[i], weights[i] * whole);
+    Wide areas[3];
+    for (int i = 0; i < 3; ++i) {
+        const int a = (i + 1) % 3, b = (i + 2) % 3;
+        areas[i] = right[a] * up[b] - right[b] * up[a];
+    }
+    const Wide per_area = 1.0f / (areas[0] + areas[1] + areas[2]);
+    for (int i = 0; i < 3; ++i)
+        shares[i] = lesser(greater(areas[i] * per_area, wide(-0.5f)), wide(2.0f)) * nearness[i];
+    const Wide whole = 1.0f / greater(shares[0] + shares[1] + shares[2], wide(1e-9f));
+    for (Wide& share : shares) share *= whole;
 }
 
 VIAFACE_INLINE Three way_to_camera(const Scene& scene, Wide x, Wide y) {
@@ -63,40 +74,39 @@ VIAFACE_INLINE Three way_to_camera(const Scene& scene, Wide x, Wide y) {
                  eye[0][2] + x * eye[1][2] + y * eye[2][2]});
 }
 
-// At the middles of the fragments' pixels.
-VIAFACE_INLINE Lit light(const Scene& scene, const Surface* all, const Fragment* fragments) {
-    const Surface* surfaces[8];
+// At the middles of eight fragments' pixels.
+VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt x, WideInt y) {
+    const Node* corners[3][8];
     const Level* levels[8];
-    Wide x, y, side;
     for (int lane = 0; lane < 8; ++lane) {
-        const Fragment& f = fragments[lane];
-        surfaces[lane] = all + f.surface;
-        levels[lane] = surfaces[lane]->level;
-        x[lane] = float(f.x), y[lane] = float(f.y);
-        side[lane] = surfaces[lane]->side;
+        const auto at = std::uint32_t(facets[lane]);
+        const Facet& facet = scene.facets[at];
+        levels[lane] = scene.levels + scene.triangles.triangles[at].level;
+        for (int i = 0; i < 3; ++i) corners[i][lane] = scene.nodes + std::uint32_t(facet.node[i]);
     }
-    float shares[3][8];
-    share_out(surfaces, x, y, shares);
+    Wide shares[3];
+    share_out(corners, x, y, shares);
+    float shares_of[3][8];
+    for (int i = 0; i < 3; ++i) store(shares_of[i], shares[i]);
     Wide places[8];
-    Four lights[2][4];
+    Four lights[8];
     for (int lane = 0; lane < 8; ++lane) {
-        const auto& [n0, n1, n2] = surfaces[lane]->node;
-        const Node &a = scene.nodes[n0], &b = scene.nodes[n1], &c = scene.nodes[n2];
-        const float u = shares[0][lane], v = shares[1][lane], w = shares[2][lane];
+        const Node &a = *corners[0][lane], &b = *corners[1][lane], &c = *corners[2][lane];
+        const float u = shares_of[0][lane], v = shares_of[1][lane], w = shares_of[2][lane];
         places[lane] = load<Wide>(a.normal) * u + load<Wide>(b.normal) * v + load<Wide>(c.normal) * w;
-        lights[lane / 4][lane % 4] =
-            load<Four>(&a.light) * u + load<Four>(&b.light) * v + load<Four>(&c.light) * w;
+        lights[lane] = load<Four>(&a.light) * u + load<Four>(&b.light) * v + load<Four>(&c.light) * w;
     }
     transpose(places);
-    transpose(lights[0]), transpose(lights[1]);
+    Wide light[4];
+    turn(lights, light);
     Wide texels[8];
     fetch(levels, places[6], places[7], texels);
     return {{places[0], places[1], places[2]},
             {places[3], places[4], places[5]},
-            way_to_camera(scene, x, y),
-            side,
-            joined(lights[0][0], lights[1][0]),
-            joined(lights[0][1], lights[1][1]),
+            way_to_camera(scene, __builtin_convertvector(x, Wide), __builtin_convertvector(y, Wide)),
+            light[2],
+            light[0],
+            light[1],
             {texels[0], texels[1], texels[2]},
             texels[3],
             texels[4],

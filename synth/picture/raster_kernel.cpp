@@ -1,7 +1,7 @@
 // Compiled once per instruction set, which VIAFACE_KERNEL names.
-#include "synth/picture/raster_fragments.hpp"
 #include "synth/picture/raster_scene.hpp"
-#include "synth/picture/raster_shades.hpp"
+#include "synth/picture/raster_set_up.hpp"
+#include "synth/picture/raster_shading.hpp"
 #include "synth/picture/raster_triangles.hpp"
 #include "synth/picture/raster_wide.hpp"
 
@@ -12,12 +12,19 @@ namespace {
 constexpr Four kSampleRight = {-0.125f, 0.375f, -0.375f, 0.125f};
 constexpr Four kSampleUp = {-0.375f, -0.125f, 0.125f, 0.375f};
 
+constexpr std::int32_t kAhead = 6;  // facets
+constexpr std::int32_t kFacetBits = 0x7fffffff, kNotStill = ~kFacetBits;
+
 VIAFACE_INLINE Four magnitude(Four v) { return greater(v, -v); }
 
 class StripeDrawing {
   public:
     VIAFACE_INLINE StripeDrawing(const Scene& scene, const Stripe& stripe, const Scratch& scratch)
-        : scene_(scene), stripe_(stripe), scratch_(scratch), bounds_(stripe.bounds) {}
+        : scene_(scene),
+          stripe_(stripe),
+          scratch_(scratch),
+          bounds_(stripe.bounds),
+          shading_(scene, stripe.bounds, scratch.sums) {}
 
     VIAFACE_INLINE void draw() {
         clear();
@@ -27,31 +34,12 @@ class StripeDrawing {
     }
 
   private:
-    static constexpr int kQueued = 8;
-    struct Queue {
-        Fragment fragments[kQueued];
-        int count = 0;
-    };
-
     VIAFACE_INLINE std::int32_t sample(std::int32_t x, std::int32_t y) const {
         return ((y - bounds_.bottom) * (scene_.width + 1) + x - bounds_.left) * kSamples;
     }
     VIAFACE_INLINE std::int32_t middle_of(std::int32_t x, std::int32_t y) const {
         return (y - bounds_.bottom) * (scene_.width + kPixelsBeyond) + x - bounds_.left;
     }
-    VIAFACE_INLINE std::int32_t pixel(std::int32_t x, std::int32_t y) const {
-        return (y - bounds_.bottom) * scene_.width + x - bounds_.left;
-    }
-    VIAFACE_INLINE std::uint32_t& rgba(std::int32_t x, std::int32_t y) const {
-        return scene_.rgba[std::int64_t(y) * scene_.width + x];
-    }
-    VIAFACE_INLINE std::uint32_t& alone(std::int32_t x, std::int32_t y) const {
-        return scene_.alone[std::int64_t(y) * scene_.width + x];
-    }
-    VIAFACE_INLINE std::uint32_t background(std::int32_t x, std::int32_t y) const {
-        return scene_.background[std::int64_t(y) * scene_.width + x];
-    }
-
     // A bit for each of the fine ones among 32 pixels.
     VIAFACE_INLINE std::uint32_t fine(std::int32_t x, std::int32_t y) const {
         const std::uint64_t* word = scene_.fine + std::int64_t(y) * scene_.fine_words + (x >> 6);
@@ -86,10 +74,10 @@ class StripeDrawing {
         __builtin_memset(scratch_.samples.seen + sample(x, y), 0, bytes);
     }
 
-    Prepared prepare(std::int32_t i) {
-        const Facet& facet = scene_.facets[stripe_.facets[i]];
-        return VIAFACE_KERNEL::prepare(scene_, facet.inside ? common(bounds_, scene_.opening) : bounds_,
-                                       facet, scratch_.surfaces[i]);
+    // Where a facet may show in the stripe.
+    VIAFACE_INLINE Bounds bounds_of(std::uint32_t facet) const {
+        const Bounds bounds = common(scene_.triangles.boxes[facet], bounds_);
+        return scene_.facets[facet].inside ? common(bounds, scene_.opening) : bounds;
     }
 
     static VIAFACE_INLINE void keep_nearer(const Front& front, std::ptrdiff_t at, WideInt id, WideInt outside,
@@ -102,51 +90,122 @@ class StripeDrawing {
 
     // What is in front. The first of the lashes.
     std::int32_t settle() {
-        const Front middles = scratch_.middles, samples = scratch_.samples;
         for (std::int32_t i = 0; i < stripe_.count; ++i) {
-            const Facet& facet = scene_.facets[stripe_.facets[i]];
-            if (facet.shade == Shade::kLash) return i;
-            const Prepared p = prepare(i);
-            if (!p.drawn) continue;
-            const WideInt id = wide(i + 1);
-            if (!facet.fine) {
-                for_pixels(
-                    p, scratch_.surfaces[i], kMiddles, AllPixels(),
-                    [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness) __attribute__((
-                        always_inline)) { keep_nearer(middles, middle_of(x, y), id, outside, nearness); });
-                if (!any_fine(p.bounds)) continue;
+            const std::uint32_t facet = stripe_.facets[i];
+            prefetch(i + kAhead);
+            if (scene_.facets[facet].shade == Shade::kLash) return i;
+            const Bounds bounds = bounds_of(facet);
+            const WideInt id = wide(std::int32_t(facet + 1) | (scene_.still[facet] != 0 ? 0 : kNotStill));
+            if (!scene_.facets[facet].fine) {
+                settle_middles(facet, bounds, id);
+                if (!any_fine(bounds)) continue;
             }
-            for_pixels(
-                p, scratch_.surfaces[i], kTwoPixels,
-                [&](std::int32_t x, std::int32_t y) __attribute__((always_inline)) { return fine(x, y); },
-                [&](std::int32_t x, std::int32_t y, WideInt outside, Wide nearness) __attribute__((
-                    always_inline)) { keep_nearer(samples, sample(x, y), id, outside, nearness); });
+            settle_samples(facet, bounds, id);
         }
         return stripe_.count;
+    }
+
+    // What will be settled after a few more facets.
+    VIAFACE_INLINE void prefetch(std::int32_t i) const {
+        const std::uint32_t facet = stripe_.facets[smaller(i, stripe_.count - 1)];
+        __builtin_prefetch(scene_.facets + facet);
+        __builtin_prefetch(scene_.triangles.triangles + facet);
+        __builtin_prefetch(scene_.triangles.boxes + facet);
+    }
+
+    VIAFACE_INLINE void settle_middles(std::uint32_t facet, const Bounds& bounds, WideInt id) {
+        const Triangle& triangle = scene_.triangles.triangles[facet];
+        const std::int32_t row = scene_.width + kPixelsBeyond;
+        const auto visit = [&](Walk walk, const Bounds& block) __attribute__((always_inline)) {
+            const bool two = block.right - block.left > kMiddles.pixels;
+            std::int32_t at = middle_of(block.left, block.bottom);
+            for (std::int32_t y = block.bottom; y < block.top; ++y, at += row) {
+                keep_nearer(scratch_.middles, at, id, walk.outside(), walk.nearness(triangle));
+                if (two) {
+                    Walk next = walk;
+                    next.go_right(float(kMiddles.pixels));
+                    keep_nearer(scratch_.middles, at + kMiddles.pixels, id, next.outside(),
+                                next.nearness(triangle));
+                }
+                walk.go_up();
+            }
+        };
+        for_blocks(scene_, facet, bounds, kMiddles, visit);
+    }
+
+    VIAFACE_INLINE void settle_samples(std::uint32_t facet, const Bounds& bounds, WideInt id) {
+        const Triangle& triangle = scene_.triangles.triangles[facet];
+        const auto visit = [&](Walk walk, const Bounds& block) __attribute__((always_inline)) {
+            const std::uint32_t within = ~(~0u << (block.right - block.left));
+            for (std::int32_t y = block.bottom; y < block.top; ++y) {
+                Walk there = walk;
+                std::int32_t at = sample(block.left, y);
+                for (std::uint32_t left = fine(block.left, y) & within; left != 0; left >>= 2) {
+                    const WideInt outside = there.outside();
+                    if ((left & 3) != 0 && negative_lanes(outside) != 0xff)
+                        keep_nearer(scratch_.samples, at, id, outside, there.nearness(triangle));
+                    there.go_right(2.0f);
+                    at += 2 * kSamples;
+                }
+                walk.go_up();
+            }
+        };
+        for_blocks(scene_, facet, bounds, kTwoPixels, visit);
     }
 
     void resolve() {
         mixed_ = 0;
         for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
-            for (std::int32_t x = bounds_.left; x < bounds_.right; x += 32) {
-                std::uint32_t fine_ones = fine(x, y);
-                const std::int32_t end = smaller(x + 32, bounds_.right);
-                for (std::int32_t at = x; at < end; ++at, fine_ones >>= 1) {
-                    if (fine_ones & 1)
-                        resolve_fine(at, y);
-                    else
-                        resolve_alone(at, y, scratch_.middles.seen[middle_of(at, y)]);
-                }
+            for (std::int32_t x = bounds_.left; x < bounds_.right; x += 8) {
+                const unsigned within = 0xffu >> (8 - smaller(8, bounds_.right - x));
+                const unsigned fine_ones = fine(x, y) & within;
+                resolve_middles(x, y, within & ~fine_ones);
+                for (unsigned left = fine_ones; left != 0; left &= left - 1)
+                    resolve_fine(x + __builtin_ctz(left), y);
             }
         }
-        flush<Shade::kSkin>();
-        flush<Shade::kInside>();
-        flush<Shade::kEye>();
-        flush<Shade::kCloth>();
+        shading_.finish();
         for (std::int32_t i = 0; i < mixed_; ++i) {
-            const auto& [x, y, surface, samples] = scratch_.mixed[i];
-            const std::uint32_t sum = scratch_.sums[pixel(x, y)] + 2 * kOne;
-            rgba(x, y) = (sum >> 2 & 255) | (sum >> 12 & 255) << 8 | (sum >> 22 & 255) << 16 | kOpaque;
+            const std::int32_t at = scratch_.mixed[i];
+            scene_.rgba[at] = mean_of_samples(shading_.sum(at));
+        }
+    }
+
+    // Those of eight pixels that have a bit in `coarse`.
+    VIAFACE_INLINE void resolve_middles(std::int32_t x, std::int32_t y, unsigned coarse) {
+        const std::int32_t* const seen = scratch_.middles.seen + middle_of(x, y);
+        if (x + 8 <= bounds_.right) return resolve_eight(x, y, coarse, load<WideInt>(seen));
+        for (; coarse != 0; coarse &= coarse - 1) {
+            const int i = __builtin_ctz(coarse);
+            resolve_alone(x + i, y, seen[i]);
+        }
+    }
+
+    VIAFACE_INLINE void resolve_eight(std::int32_t x, std::int32_t y, unsigned coarse, WideInt seen) {
+        constexpr WideInt kBits = {1, 2, 4, 8, 16, 32, 64, 128};
+        const std::int32_t at = shading_.at(x, y);
+        const WideInt chosen = (kBits & std::int32_t(coarse)) != 0, facets = seen & kFacetBits;
+        const auto before = load<WideInt>(scene_.alone + at);
+        store(scene_.alone + at, chosen ? facets : before);
+        const unsigned bare = negative_lanes(seen == 0) & coarse;
+        for (unsigned left = bare; left != 0; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            scene_.rgba[at + i] = scene_.background[at + i];
+        }
+        const unsigned drawn = negative_lanes(seen != before) & coarse & ~bare;
+        if (drawn != 0) shading_.push_skin(x, y, facets - 1, drawn);
+    }
+
+    // A pixel in which nothing or one facet is seen.
+    VIAFACE_INLINE void resolve_alone(std::int32_t x, std::int32_t y, std::int32_t seen) {
+        const std::int32_t at = shading_.at(x, y);
+        std::uint32_t& before = scene_.alone[at];
+        if (seen == 0) {
+            before = 0;
+            scene_.rgba[at] = scene_.background[at];
+        } else if (before != std::uint32_t(seen)) {
+            before = std::uint32_t(seen & kFacetBits);
+            shading_.push(x, y, facet_of(seen), kSamples);
         }
     }
 
@@ -154,27 +213,8 @@ class StripeDrawing {
         const std::int32_t* seen = scratch_.samples.seen + sample(x, y);
         if (((seen[0] ^ seen[1]) | (seen[0] ^ seen[2]) | (seen[0] ^ seen[3])) == 0)
             return resolve_alone(x, y, seen[0]);
-        alone(x, y) = 0;
+        scene_.alone[shading_.at(x, y)] = 0;
         resolve_mixed(x, y, seen);
-    }
-
-    VIAFACE_INLINE void resolve_alone(std::int32_t x, std::int32_t y, std::int32_t id) {
-        std::uint32_t& before = alone(x, y);
-        if (id == 0) {
-            before = 0;
-            rgba(x, y) = background(x, y);
-            return;
-        }
-        const std::uint32_t facet = stripe_.facets[id - 1];
-        if (before == facet + 1 && scene_.still[facet] != 0) return;
-        before = facet + 1;
-        push({x, y, id - 1, kSamples});
-    }
-
-    static constexpr std::uint32_t kOne = 1 | 1 << 10 | 1 << 20, kOpaque = 255u << 24;
-
-    static VIAFACE_INLINE std::uint32_t spread(std::uint32_t rgba) {
-        return (rgba & 255) | (rgba >> 8 & 255) << 10 | (rgba >> 16 & 255) << 20;
     }
 
     // Shares a pixel's samples out among surfaces that do not go on in each other: another material, a fold
@@ -184,121 +224,87 @@ class StripeDrawing {
         const auto seen = load<FourInt>(samples);
         const auto near = load<Four>(scratch_.samples.nearness + (samples - scratch_.samples.seen));
         Four planes[kSamples];
-        for (int i = 0; i < kSamples; ++i) planes[i] = load<Four>(plane_of(larger(samples[i], 1)));
+        for (int i = 0; i < kSamples; ++i)
+            planes[i] = load<Four>(&scene_.triangles.triangles[larger(facet_of(samples[i]), 0)].nearness);
         transpose(planes);
         const Four reach = scene_.step * near, fold = scene_.fold * near;
-        unsigned left = negative_lanes(seen > 0);
-        std::uint32_t& sum = scratch_.sums[pixel(x, y)];
-        sum = std::uint32_t(kSamples - __builtin_popcount(left)) * spread(background(x, y));
+        unsigned left = negative_lanes(seen != 0);
+        const std::int32_t at = shading_.at(x, y);
+        shading_.sum(at) = std::uint32_t(kSamples - __builtin_popcount(left)) * spread(scene_.background[at]);
         for (bool first = true; left != 0; first = false) {
-            const std::int32_t id = samples[__builtin_ctz(left)];
-            const Surface& s = scratch_.surfaces[id - 1];
-            const Four gap = s.nearness + (kSampleRight + (float(x) - s.x)) * s.nearness_right +
-                             (kSampleUp + (float(y) - s.y)) * s.nearness_up - near;
-            const Four turn = magnitude(planes[1] - s.nearness_right) + magnitude(planes[2] - s.nearness_up);
-            const FourInt goes_on =
-                (magnitude(gap) < reach) & (turn < fold) & (planes[3] == s.material_number);
+            const std::int32_t id = samples[__builtin_ctz(left)], facet = facet_of(id);
+            const Triangle& t = scene_.triangles.triangles[facet];
+            const Bounds& box = scene_.triangles.boxes[facet];
+            const Four gap = t.nearness + (kSampleRight + float(x - box.left)) * t.nearness_right +
+                             (kSampleUp + float(y - box.bottom)) * t.nearness_up - near;
+            const Four turn = magnitude(planes[1] - t.nearness_right) + magnitude(planes[2] - t.nearness_up);
+            const FourInt goes_on = (magnitude(gap) < reach) & (turn < fold) & (planes[3] == t.material);
             const unsigned one = negative_lanes(goes_on | (seen == id)) & left;
             const std::int32_t count = __builtin_popcount(one);
             left &= ~one;
-            if (first && count < kSamples) scratch_.mixed[mixed_++] = {x, y, 0, 0};
-            push({x, y, id - 1, count});
+            if (first && count < kSamples) scratch_.mixed[mixed_++] = at;
+            shading_.push(x, y, facet, count);
         }
     }
 
-    VIAFACE_INLINE const float* plane_of(std::int32_t id) const {
-        return &scratch_.surfaces[id - 1].nearness;
-    }
-
-    VIAFACE_INLINE void push(const Fragment& fragment) {
-        const Shade shade = scratch_.surfaces[fragment.surface].shade;
-        Queue& queue = queues_[int(shade)];
-        queue.fragments[queue.count++] = fragment;
-        if (queue.count < kQueued) return;
-        switch (shade) {
-            case Shade::kSkin:
-                return flush<Shade::kSkin>();
-            case Shade::kInside:
-                return flush<Shade::kInside>();
-            case Shade::kEye:
-                return flush<Shade::kEye>();
-            case Shade::kCloth:
-                return flush<Shade::kCloth>();
-            case Shade::kLash:
-                return flush<Shade::kLash>();
-        }
-    }
-
-    template <Shade shade>
-    __attribute__((noinline)) void flush() {
-        Queue& queue = queues_[int(shade)];
-        if (queue.count == 0) return;
-        for (int i = queue.count; i < kQueued; ++i) queue.fragments[i] = queue.fragments[0];
-        const Lit lit = light(scene_, scratch_.surfaces, queue.fragments);
-        const Three c = shaded<shade>(lit);
-        const WideInt colour = byte(filmic(c.x)) | byte(filmic(c.y)) << 8 | byte(filmic(c.z)) << 16;
-        std::uint32_t colours[kQueued];
-        store(colours, colour);
-        if constexpr (shade == Shade::kLash) {
-            float covers[kQueued];
-            store(covers, lit.cover);
-            for (int i = 0; i < queue.count; ++i) lay_over(queue.fragments[i], colours[i], covers[i]);
-        } else {
-            for (int i = 0; i < queue.count; ++i) add(queue.fragments[i], colours[i]);
-        }
-        queue.count = 0;
-    }
-
-    VIAFACE_INLINE void add(const Fragment& f, std::uint32_t colour) {
-        if (f.samples == kSamples) {
-            rgba(f.x, f.y) = colour | kOpaque;
-        } else {
-            scratch_.sums[pixel(f.x, f.y)] += std::uint32_t(f.samples) * spread(colour);
-        }
-    }
-
-    VIAFACE_INLINE void lay_over(const Fragment& f, std::uint32_t colour, float cover) {
-        alone(f.x, f.y) = 0;
-        std::uint32_t& to = rgba(f.x, f.y);
-        const float share = cover * float(f.samples) * (1.0f / kSamples);
-        std::uint32_t mixed = kOpaque;
-        for (int shift = 0; shift < 24; shift += 8) {
-            const float under = float(to >> shift & 255), over = float(colour >> shift & 255);
-            mixed |= std::uint32_t(under + share * (over - under) + 0.5f) << shift;
-        }
-        to = mixed;
-    }
+    static VIAFACE_INLINE std::int32_t facet_of(std::int32_t seen) { return (seen & kFacetBits) - 1; }
 
     void blend(std::int32_t first) {
         for (std::int32_t i = first; i < stripe_.count; ++i) {
-            const Prepared p = prepare(i);
-            if (!p.drawn) continue;
-            for_pixels(
-                p, scratch_.surfaces[i], kTwoPixels, AllPixels(),
-                [&](std::int32_t x, std::int32_t y, WideInt outside,
-                    Wide nearness) __attribute__((always_inline)) {
-                    const Wide before = load<Wide>(scratch_.samples.nearness + sample(x, y));
-                    const unsigned lanes = negative_lanes((outside >= 0) & (nearness > before));
-                    const int here = __builtin_popcount(lanes & 15), next = __builtin_popcount(lanes >> 4);
-                    if (here != 0) push({x, y, i, here});
-                    if (next != 0) push({x + 1, y, i, next});
+            const std::uint32_t facet = stripe_.facets[i];
+            for_blocks(
+                scene_, facet, bounds_of(facet),
+                kTwoPixels, [&](Walk walk, const Bounds& block) __attribute__((always_inline)) {
+                    blend(facet, walk, block);
                 });
         }
-        flush<Shade::kLash>();
+        shading_.finish();
+    }
+
+    VIAFACE_INLINE void blend(std::uint32_t facet, Walk walk, const Bounds& block) {
+        const Triangle& triangle = scene_.triangles.triangles[facet];
+        for (std::int32_t y = block.bottom; y < block.top; ++y) {
+            Walk there = walk;
+            for (std::int32_t x = block.left; x < block.right; x += 2) {
+                const Wide before = load<Wide>(scratch_.samples.nearness + sample(x, y));
+                const WideInt in_front = (there.outside() >= 0) & (there.nearness(triangle) > before);
+                const unsigned lanes = negative_lanes(in_front);
+                lay(x, y, facet, __builtin_popcount(lanes & 15));
+                if (x + 1 < block.right) lay(x + 1, y, facet, __builtin_popcount(lanes >> 4));
+                there.go_right(2.0f);
+            }
+            walk.go_up();
+        }
+    }
+
+    VIAFACE_INLINE void lay(std::int32_t x, std::int32_t y, std::uint32_t facet, std::int32_t samples) {
+        if (samples == 0) return;
+        scene_.alone[shading_.at(x, y)] = 0;
+        shading_.push(x, y, std::int32_t(facet), samples);
     }
 
     const Scene& scene_;
     const Stripe& stripe_;
     const Scratch& scratch_;
     const Bounds bounds_;
-    Queue queues_[kOpaqueShades + 1];
+    Shading shading_;
     std::int32_t mixed_ = 0;
 };
 
-}  // namespace
+void set_up(const Scene& scene, int first, int end) {
+    for (int i = first; i < end; i += 8) {
+        std::uint64_t still;
+        __builtin_memcpy(&still, scene.still + i, sizeof still);
+        if (still != 0x0101010101010101) SettingUp(scene, i).write();
+    }
+}
 
-void draw_stripe(const Scene& scene, const Stripe& stripe, const Scratch& scratch) {
+void draw(const Scene& scene, const Stripe& stripe, const Scratch& scratch) {
     StripeDrawing(scene, stripe, scratch).draw();
 }
+
+}  // namespace
+
+const Kernel kKernel = {set_up, draw};
 
 }  // namespace viaface::raster::VIAFACE_KERNEL

@@ -55,6 +55,8 @@ std::vector<raster::Facet> facets_of(const Face& face) {
                               material != Material::kSkin});
         }
     }
+    while (facets.size() % 8 != 0)
+        facets.push_back({{0, 0, 0}, 0, raster::Shade::kCloth, false, false, false});
     return facets;
 }
 
@@ -62,7 +64,7 @@ RasterNodes::RasterNodes(const Face& face, const View& view)
     : half_picture_(0.5f * view.width, 0.5f * view.height),
       lash_(lashes_of(face)),
       placed_(face.rest.rows()),
-      places_(face.rest.rows()),
+      moved_(face.rest.rows()),
       nodes_(face.rest.rows()) {
     const Camera camera = camera_of(view);
     orthographic_ = camera.orthographic;
@@ -81,10 +83,11 @@ RasterNodes::RasterNodes(const Face& face, const View& view)
 }
 
 void RasterNodes::place(const PosedVertices& posed, WorkPool& pool) {
-    pool.share_rows(int(places_.size()), [&](int first, int end) {
+    pool.share_rows(int(nodes_.size()), [&](int first, int end) {
         for (int node = first; node < end; ++node) {
             const Vertex& vertex = posed.vertices()[node];
-            if (vertex != placed_[node]) place(vertex, node);
+            moved_[node] = vertex != placed_[node];
+            if (moved(node)) place(vertex, node);
         }
     });
 }
@@ -93,7 +96,7 @@ void RasterNodes::place(const Vertex& v, int i) {
     const Eigen::Matrix3f turn = world_from_head_.topLeftCorner<3, 3>();
     Vector3f world = turn * Vector3f(v.place) + world_from_head_.topRightCorner<3, 1>();
     if (lash_[i]) world += kLashesBefore * (eye_ - world).normalized();
-    places_[i] = place_of(clip_from_world_ * world.homogeneous(), world.z());
+    nodes_[i].place = place_of(clip_from_world_ * world.homogeneous(), world.z());
     const Vector3f normal(v.normal), tangent = tangents_.row(i).head<3>().transpose();
     const Vector3f along = (tangent - normal * normal.dot(tangent)).normalized();
     Vector3f::Map(nodes_[i].normal) = turn * normal;

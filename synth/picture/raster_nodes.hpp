@@ -11,6 +11,7 @@
 
 namespace viaface {
 
+// In the order in which they are drawn, filled up to a multiple of eight by facets that are never seen.
 std::vector<raster::Facet> facets_of(const Face& face);
 
 class RasterNodes {
@@ -18,8 +19,8 @@ class RasterNodes {
     RasterNodes(const Face& face, const View& view);
 
     void place(const PosedVertices& posed, WorkPool& pool);
-    const std::vector<raster::Place>& places() const { return places_; }
     const std::vector<raster::Node>& nodes() const { return nodes_; }
+    bool moved(int node) const { return moved_[node] != 0; }  // or lit otherwise, by the last call of place
 
   private:
     void place(const Vertex& vertex, int node);
@@ -32,8 +33,8 @@ class RasterNodes {
     Eigen::Vector3f eye_;
     std::vector<std::uint8_t> lash_;  // of each node: 1 where it is a lash's
     Tangents tangents_;
-    std::vector<Vertex> placed_;  // what places_ and nodes_ stand for
-    std::vector<raster::Place> places_;
+    std::vector<Vertex> placed_;       // what nodes_ stand for
+    std::vector<std::uint8_t> moved_;  // of each node
     std::vector<raster::Node> nodes_;
 };
 

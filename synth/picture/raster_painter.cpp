@@ -19,13 +19,12 @@ using Eigen::Vector3f;
 constexpr float kFold = 1.0f;   // slope, depth per width
 constexpr float kStep = 0.75f;  // pixels
 
-raster::DrawStripe kernel_of(Instructions instructions) {
+const raster::Kernel& kernel_of(Instructions instructions) {
 #ifdef VIAFACE_AVX2_KERNEL
-    if (instructions == Instructions::kBest && __builtin_cpu_supports("avx2"))
-        return raster::avx2::draw_stripe;
+    if (instructions == Instructions::kBest && __builtin_cpu_supports("avx2")) return raster::avx2::kKernel;
 #endif
     static_cast<void>(instructions);
-    return raster::baseline::draw_stripe;
+    return raster::baseline::kKernel;
 }
 
 struct FrontBuffers {
@@ -40,8 +39,7 @@ struct FrontBuffers {
 struct Workspace {
     FrontBuffers middles, samples;
     std::vector<std::uint32_t> sums;
-    std::vector<raster::Fragment> mixed;
-    std::vector<raster::Surface> surfaces;
+    std::vector<std::int32_t> mixed;
 
     explicit Workspace(int width)
         : middles(std::size_t(width + raster::kPixelsBeyond) * raster::kStripeRows),
@@ -49,10 +47,17 @@ struct Workspace {
           sums(std::size_t(width) * raster::kStripeRows),
           mixed(sums.size()) {}
 
-    raster::Scratch scratch(std::size_t facets) {
-        if (surfaces.size() < facets) surfaces.resize(facets);
-        return {middles.front(), samples.front(), sums.data(), mixed.data(), surfaces.data()};
-    }
+    raster::Scratch scratch() { return {middles.front(), samples.front(), sums.data(), mixed.data()}; }
+};
+
+// What is known of each facet before it is drawn.
+struct FacetArrays {
+    std::vector<raster::Triangle> triangles;
+    std::vector<raster::Bounds> boxes;
+    std::vector<std::uint8_t> seen, still;  // as in raster::Triangles and raster::Scene
+
+    explicit FacetArrays(std::size_t facets)
+        : triangles(facets), boxes(facets), seen(facets), still(facets) {}
 };
 
 class RasterPainter : public Painter {
@@ -62,11 +67,10 @@ class RasterPainter : public Painter {
           nodes_(face, view),
           background_(std::size_t(view.width) * view.height),
           alone_(background_.size()),
-          still_(facets_.size()),
-          seen_(facets_.size()),
+          of_facets_(facets_.size()),
           fine_(facets_, face.weld, view.width, view.height),
           lists_(view.height),
-          draw_stripe_(kernel_of(instructions)),
+          kernel_(kernel_of(instructions)),
           pool_(pool),
           workspaces_(pool.threads(), Workspace(view.width)) {
         prepare_textures(face);
@@ -78,22 +82,20 @@ class RasterPainter : public Painter {
     void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening, bool again,
                std::uint8_t* rgba) override {
         nodes_.place(posed, pool_);
-        look_at_facets(posed, again);
         raster::Scene scene = scene_;
         scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
         scene.opening = {opening.left, opening.bottom, opening.left + opening.width,
                          opening.bottom + opening.height};
-        pool_.share(2, [&](int item, int) {
-            if (item == 0)
-                lists_.list(rects, {facets_, nodes_.places(), seen_, scene.opening});
-            else
-                fine_.find(nodes_.places(), seen_, scene.opening);
+        pool_.share_rows(int(facets_.size()), [&](int first, int end) {
+            for (int i = first; i < end; ++i) of_facets_.still[i] = again && !moved(facets_[i]);
+            kernel_.set_up(scene, first, end);
         });
+        const Visible visible{facets_, nodes_.nodes(), of_facets_.boxes, of_facets_.seen, scene.opening};
+        pool_.share(2, [&](int item, int) { item == 0 ? lists_.list(rects, visible) : fine_.find(visible); });
         pool_.share(int(lists_.stripes().size()), [&](int item, int thread) {
-            const StripeList& list = lists_.stripes()[item];
-            const auto facets = static_cast<std::int32_t>(list.facets.size());
-            draw_stripe_(scene, {list.bounds, list.facets.data(), facets},
-                         workspaces_[thread].scratch(facets));
+            const auto& [bounds, facets] = lists_.stripes()[item];
+            kernel_.draw(scene, {bounds, facets.data(), static_cast<std::int32_t>(facets.size())},
+                         workspaces_[thread].scratch());
         });
     }
 
@@ -101,18 +103,28 @@ class RasterPainter : public Painter {
     void prepare_textures(const Face& face) {
         for (int i = 0; i < kMaterials; ++i) {
             textures_.emplace_back(pack(face.surfaces[i], static_cast<Material>(i)));
-            mipmaps_.push_back(textures_.back().mipmap());
+            levels_.insert(levels_.end(), textures_.back().levels().begin(), textures_.back().levels().end());
         }
+        for (const raster::Facet& facet : facets_) texel_ways_.push_back(texel_ways(facet));
+    }
+
+    raster::TexelWays texel_ways(const raster::Facet& facet) const {
+        const raster::Level& finest = levels_[facet.material * raster::kLevels];
+        const raster::Node &from = nodes_.nodes()[facet.node[0]], &to_1 = nodes_.nodes()[facet.node[1]],
+                           &to_2 = nodes_.nodes()[facet.node[2]];
+        return {(to_1.s - from.s) * finest.columns, (to_1.t - from.t) * finest.rows,
+                (to_2.s - from.s) * finest.columns, (to_2.t - from.t) * finest.rows};
     }
 
     void prepare_scene(const View& view) {
-        scene_.places = nodes_.places().data();
         scene_.nodes = nodes_.nodes().data();
         scene_.facets = facets_.data();
-        scene_.mipmaps = mipmaps_.data();
+        scene_.texel_ways = texel_ways_.data();
+        scene_.triangles = {of_facets_.triangles.data(), of_facets_.boxes.data(), of_facets_.seen.data()};
+        scene_.levels = levels_.data();
         scene_.background = background_.data();
         scene_.alone = alone_.data();
-        scene_.still = still_.data();
+        scene_.still = of_facets_.still.data();
         scene_.fine = fine_.bits().data();
         scene_.fine_words = fine_.words();
         scene_.width = view.width;
@@ -138,35 +150,23 @@ class RasterPainter : public Painter {
         set(2, 0, 2.0 / view.height, 0);
     }
 
-    // What of each facet has not moved, and what is turned towards the camera.
-    void look_at_facets(const PosedVertices& posed, bool again) {
-        pool_.share_rows(int(facets_.size()), [&](int first, int end) {
-            for (int i = first; i < end; ++i) {
-                const auto& [a, b, c] = facets_[i].node;
-                still_[i] = again && !posed.changed(a) && !posed.changed(b) && !posed.changed(c);
-                const std::vector<raster::Place>& at = nodes_.places();
-                seen_[i] = at[a].nearness != 0 && at[b].nearness != 0 && at[c].nearness != 0 &&
-                           (facets_[i].two_sided || !turned_away(at[a], at[b], at[c]));
-            }
-        });
-    }
-
-    static bool turned_away(const raster::Place& a, const raster::Place& b, const raster::Place& c) {
-        return std::int64_t(b.x - a.x) * (c.y - a.y) - std::int64_t(b.y - a.y) * (c.x - a.x) <= 0;
+    bool moved(const raster::Facet& facet) const {
+        const auto& [a, b, c] = facet.node;
+        return nodes_.moved(a) || nodes_.moved(b) || nodes_.moved(c);
     }
 
     std::vector<raster::Facet> facets_;
     RasterNodes nodes_;
+    std::vector<raster::TexelWays> texel_ways_;
     std::vector<RasterTextures> textures_;
-    std::vector<raster::Mipmap> mipmaps_;
+    std::vector<raster::Level> levels_;  // of all textures
     std::vector<std::uint32_t> background_;
     std::vector<std::uint32_t> alone_;  // of each pixel, as in Scene
-    std::vector<std::uint8_t> still_;   // of each facet
-    std::vector<std::uint8_t> seen_;    // of each facet: 1 where it may be seen
+    FacetArrays of_facets_;
     FinePixels fine_;
     StripeLists lists_;
     raster::Scene scene_{};
-    raster::DrawStripe draw_stripe_;
+    const raster::Kernel& kernel_;
     WorkPool& pool_;
     std::vector<Workspace> workspaces_;
 };

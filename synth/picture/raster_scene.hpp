@@ -2,7 +2,8 @@
 // instruction set and may share no inline function with the rest of the program but those that are always
 // inlined.
 //
-// A stripe of rows is drawn in three steps. Triangles first settle what is in front (a visibility buffer:
+// Facets are set up as triangles of the picture, eight at a time, where they have moved. Then stripes of rows
+// are drawn, each in three steps. Triangles first settle what is in front (a visibility buffer:
 // C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach to deferred shading", JCGT
 // 2(2), 2013): in the middle of each pixel, and at four samples of the fine pixels, in which more than one
 // surface may be seen (FinePixels). Then each pixel is shaded once for every surface that it sees, eight
@@ -27,9 +28,11 @@ inline constexpr int kPixelsBeyond = 7;  // the last of eight pixels at a time m
 struct Place {
     std::int32_t x, y;  // 1/kSteps pixel from the lower left corner
     float nearness;     // 1 / distance along the view, 1/mm; 0 where it cannot be drawn
+    float unused = 0;
 };
 
-struct alignas(16) Node {
+struct alignas(64) Node {
+    Place place;
     float normal[3];   // unit, world
     float tangent[3];  // across the normal, world
     float s, t;        // of the texture, from its upper left corner
@@ -46,11 +49,6 @@ struct Level {
     float columns, rows;         // without the border
 };
 
-struct Mipmap {
-    Level levels[kLevels];
-    std::int32_t count;
-};
-
 enum class Shade : std::uint8_t { kSkin, kInside, kEye, kCloth, kLash };
 inline constexpr int kOpaqueShades = 4;
 
@@ -63,9 +61,27 @@ struct Facet {
     bool fine;  // in fine pixels alone
 };
 
+// Ways over a facet's finest texture from its first corner to the others, texels.
+struct TexelWays {
+    float s1, t1, s2, t2;
+};
+
 struct Bounds {
     std::int32_t left, bottom, right, top;  // pixels; right and top are outside
 };
+
+// A facet in the picture. Its functions of the place begin at the middle of its box's lower left pixel.
+struct alignas(64) Triangle {
+    // Edge functions, opposite each corner: not below zero where a place belongs to the triangle.
+    std::int32_t first[3];  // in steps of an eighth of a pixel; of small triangles alone
+    std::int32_t small;     // a box of kSmall pixels at most, either way: all is exact in 32 bits
+    std::int32_t right[3];  // per step of the grid
+    std::int32_t level;     // of all materials' textures
+    std::int32_t up[3];     // per step of the grid
+    std::int32_t unused;
+    float nearness, nearness_right, nearness_up, material;
+};
+inline constexpr int kSmall = 128;
 
 #define VIAFACE_INLINE inline __attribute__((always_inline))
 
@@ -86,17 +102,19 @@ VIAFACE_INLINE Bounds common(const Bounds& a, const Bounds& b) {
             smaller(a.top, b.top)};
 }
 
-// The pixels in which a triangle may have samples.
-VIAFACE_INLINE Bounds box_of(const Place& a, const Place& b, const Place& c) {
-    return {floor_pixel(smaller(smaller(a.x, b.x), c.x)), floor_pixel(smaller(smaller(a.y, b.y), c.y)),
-            floor_pixel(larger(larger(a.x, b.x), c.x)) + 1, floor_pixel(larger(larger(a.y, b.y), c.y)) + 1};
-}
+// Of each facet.
+struct Triangles {
+    Triangle* triangles;
+    Bounds* boxes;       // pixels in which it may have samples
+    std::uint8_t* seen;  // 1 where it may be seen: in reach of the camera, and turned towards it or two-sided
+};
 
 struct Scene {
-    const Place* places;
     const Node* nodes;
-    const Facet* facets;
-    const Mipmap* mipmaps;  // of each material
+    const Facet* facets;  // a multiple of eight
+    const TexelWays* texel_ways;
+    Triangles triangles;
+    const Level* levels;  // [materials x kLevels], the coarsest repeated
     const std::uint32_t* background;
     std::uint32_t* rgba;
     std::uint32_t* alone;       // of each pixel: 1 + the facet that is all there was when it was drawn, or 0
@@ -110,29 +128,14 @@ struct Scene {
     Bounds opening;
 };
 
-// Linear functions of the place in the picture, from the pixel at `x`, `y`.
-struct alignas(16) Surface {
-    float weight[4], weight_right[4], weight_up[4];  // of the corners, over the distance and times the area
-    float least[4];                                  // weights of what lies beyond an edge end here
-    float nearness, nearness_right, nearness_up, material_number;
-    float x, y;
-    float side;
-    const Level* level;
-    std::int32_t node[3];
-    Shade shade;
-};
-
-struct Fragment {
-    std::int32_t x, y, surface, samples;
-};
-
 struct Stripe {
     Bounds bounds;
     const std::uint32_t* facets;  // in drawing order, lashes last
     std::int32_t count;
 };
 
-// What is in front: of each place its nearness, and 1 + the surface, or 0 for the background.
+// What is in front: of each place its nearness, and 1 + the facet, with the highest bit set where it is not
+// still, or 0 for the background.
 struct Front {
     float* nearness;
     std::int32_t* seen;
@@ -143,17 +146,20 @@ struct Scratch {
     Front middles;        // [kStripeRows x (width + kPixelsBeyond)]
     Front samples;        // [kStripeRows x (width + 1) x kSamples], of fine pixels
     std::uint32_t* sums;  // [kStripeRows x width], 10 bits each for red, green, blue
-    Fragment* mixed;      // [kStripeRows x width]
-    Surface* surfaces;    // as many as facets
+    std::int32_t* mixed;  // [kStripeRows x width], pixels of the picture
 };
 
-using DrawStripe = void (*)(const Scene&, const Stripe&, const Scratch&);
+struct Kernel {
+    // Of the facets from `first`, a multiple of eight, to `end`; eights that are all still stay as they are.
+    void (*set_up)(const Scene& scene, int first, int end);
+    void (*draw)(const Scene& scene, const Stripe& stripe, const Scratch& scratch);
+};
 
 namespace baseline {
-void draw_stripe(const Scene& scene, const Stripe& stripe, const Scratch& scratch);
+extern const Kernel kKernel;
 }
 namespace avx2 {
-void draw_stripe(const Scene& scene, const Stripe& stripe, const Scratch& scratch);
+extern const Kernel kKernel;
 }
 
 }  // namespace viaface::raster

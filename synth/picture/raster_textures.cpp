@@ -64,14 +64,15 @@ Canvas halved(const Canvas& finer) {
 
 RasterTextures::RasterTextures(const PackedTextures& packed) {
     Canvas canvas = largest(packed);
-    while (true) {
-        const bool last = (canvas.width == 1 && canvas.height == 1) || mipmap_.count + 1 == raster::kLevels;
-        Canvas smaller = last ? Canvas(1, 1) : halved(canvas);
+    for (std::size_t i = 0;; ++i) {
+        const raster::Level level{canvas.texels.data(), std::ptrdiff_t(canvas.width + 2) * kTexel,
+                                  float(canvas.width), float(canvas.height)};
+        const bool last = canvas.width == 1 && canvas.height == 1;
+        Canvas coarser = last ? Canvas(1, 1) : halved(canvas);
         texels_.push_back(std::move(canvas.texels));
-        mipmap_.levels[mipmap_.count++] = {texels_.back().data(), std::ptrdiff_t(canvas.width + 2) * kTexel,
-                                           float(canvas.width), float(canvas.height)};
-        if (last) return;
-        canvas = std::move(smaller);
+        std::fill(levels_.begin() + i, levels_.end(), level);
+        if (last || i + 1 == levels_.size()) return;
+        canvas = std::move(coarser);
     }
 }
 

@@ -55,6 +55,8 @@ VIAFACE_INLINE Four greater(Four a, Four b) {
     return a > b ? a : b;
 #endif
 }
+VIAFACE_INLINE WideInt greater(WideInt a, WideInt b) { return a > b ? a : b; }
+VIAFACE_INLINE WideInt lesser(WideInt a, WideInt b) { return a < b ? a : b; }
 VIAFACE_INLINE Wide positive(Wide v) { return greater(v, Wide{}); }
 
 VIAFACE_INLINE Wide root(Wide v) {
@@ -118,6 +120,21 @@ VIAFACE_INLINE unsigned negative_lanes(FourInt v) {
 #endif
 }
 
+#if defined(__AVX2__)
+// Of each set of lanes their numbers one after the other, a byte each.
+struct Packing {
+    std::uint64_t order[256] = {};
+    constexpr Packing() {
+        for (unsigned lanes = 0; lanes < 256; ++lanes) {
+            for (unsigned lane = 0, to = 0; lane < 8; ++lane) {
+                if (lanes >> lane & 1) order[lanes] |= std::uint64_t(lane) << (8 * to++);
+            }
+        }
+    }
+};
+constexpr Packing kPacking;
+#endif
+
 // Rows become columns.
 VIAFACE_INLINE void transpose(Wide (&r)[8]) {
     Wide a[8], b[8];
@@ -150,6 +167,47 @@ VIAFACE_INLINE void transpose(Four (&r)[4]) {
 
 VIAFACE_INLINE Wide joined(Four low, Four high) {
     return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+// The lanes that have a bit, moved together; what the others hold is not told.
+VIAFACE_INLINE WideInt packed(WideInt v, unsigned lanes) {
+#if defined(__AVX2__)
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(std::int64_t(kPacking.order[lanes])));
+    return WideInt(_mm256_permutevar8x32_epi32(__m256i(v), order));
+#else
+    WideInt some{};
+    for (int to = 0; lanes != 0; lanes &= lanes - 1) some[to++] = v[__builtin_ctz(lanes)];
+    return some;
+#endif
+}
+
+// Eight rows of four become four columns of eight, and back.
+VIAFACE_INLINE void turn(const Four (&rows)[8], Wide (&columns)[4]) {
+    Wide r[4];
+    for (int i = 0; i < 4; ++i) r[i] = joined(rows[i], rows[i + 4]);
+    const Wide a = __builtin_shufflevector(r[0], r[1], 0, 8, 1, 9, 4, 12, 5, 13),
+               b = __builtin_shufflevector(r[2], r[3], 0, 8, 1, 9, 4, 12, 5, 13),
+               c = __builtin_shufflevector(r[0], r[1], 2, 10, 3, 11, 6, 14, 7, 15),
+               d = __builtin_shufflevector(r[2], r[3], 2, 10, 3, 11, 6, 14, 7, 15);
+    columns[0] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+    columns[1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+    columns[2] = __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13);
+    columns[3] = __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+VIAFACE_INLINE void turn(const Wide (&columns)[4], Four (&rows)[8]) {
+    const Wide a = __builtin_shufflevector(columns[0], columns[1], 0, 8, 1, 9, 4, 12, 5, 13),
+               b = __builtin_shufflevector(columns[2], columns[3], 0, 8, 1, 9, 4, 12, 5, 13),
+               c = __builtin_shufflevector(columns[0], columns[1], 2, 10, 3, 11, 6, 14, 7, 15),
+               d = __builtin_shufflevector(columns[2], columns[3], 2, 10, 3, 11, 6, 14, 7, 15);
+    const Wide r[4] = {__builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13),
+                       __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15),
+                       __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13),
+                       __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15)};
+    for (int i = 0; i < 4; ++i) {
+        rows[i] = __builtin_shufflevector(r[i], r[i], 0, 1, 2, 3);
+        rows[i + 4] = __builtin_shufflevector(r[i], r[i], 4, 5, 6, 7);
+    }
 }
 
 struct Three {

@@ -7,8 +7,7 @@ namespace viaface {
 using raster::Bounds;
 
 Bounds box_of(const Visible& visible, int facet) {
-    const auto& [a, b, c] = visible.facets[facet].node;
-    const Bounds box = raster::box_of(visible.places[a], visible.places[b], visible.places[c]);
+    const Bounds& box = visible.boxes[facet];
     return visible.facets[facet].inside ? raster::common(box, visible.opening) : box;
 }
 

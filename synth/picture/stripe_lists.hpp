@@ -14,14 +14,16 @@ struct StripeList {
     std::vector<std::uint32_t> facets;  // in drawing order
 };
 
-// What may show of the picture's triangles: their corners, and which of them are seen at all.
+// What may show of the picture's triangles.
 struct Visible {
     std::span<const raster::Facet> facets;
-    std::span<const raster::Place> places;
-    std::span<const std::uint8_t> seen;  // of each facet
-    raster::Bounds opening;              // what is inside the mouth shows nowhere else
+    std::span<const raster::Node> nodes;
+    std::span<const raster::Bounds> boxes;  // of each facet
+    std::span<const std::uint8_t> seen;     // of each facet
+    raster::Bounds opening;                 // what is inside the mouth shows nowhere else
 };
 
+// Where a facet may show.
 raster::Bounds box_of(const Visible& visible, int facet);
 
 class StripeLists {

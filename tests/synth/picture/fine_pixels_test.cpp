@@ -16,14 +16,17 @@ constexpr int kWidth = 150, kHeight = 60;
 
 // Two squares side by side, of two triangles each: nodes 0 1 2 below, 3 4 5 above.
 struct Sheet {
-    std::vector<raster::Place> places;
+    std::vector<raster::Node> nodes;
     std::vector<raster::Facet> facets;
     std::vector<std::uint8_t> seen = std::vector<std::uint8_t>(4, 1);
     std::vector<int> weld = {0, 1, 2, 3, 4, 5};
 
     explicit Sheet(Material material, raster::Shade shade = raster::Shade::kSkin) {
         for (const int y : {10, 40}) {
-            for (const int x : {20, 60, 100}) places.push_back({x * kSteps, y * kSteps, 0.001f});
+            for (const int x : {20, 60, 100}) {
+                nodes.emplace_back();
+                nodes.back().place = {x * kSteps, y * kSteps, 0.001f};
+            }
         }
         for (const auto& [a, b, c] :
              {std::array{0, 1, 4}, std::array{0, 4, 3}, std::array{1, 2, 5}, std::array{1, 5, 4}})
@@ -35,9 +38,18 @@ struct Sheet {
                               material != Material::kSkin});
     }
 
+    raster::Bounds box_of(const raster::Facet& facet) const {
+        const auto& [a, b, c] = facet.node;
+        const auto [left, right] = std::minmax({nodes[a].place.x, nodes[b].place.x, nodes[c].place.x});
+        const auto [bottom, top] = std::minmax({nodes[a].place.y, nodes[b].place.y, nodes[c].place.y});
+        return {left / kSteps, bottom / kSteps, right / kSteps + 1, top / kSteps + 1};
+    }
+
     bool fine(int x, int y, const raster::Bounds& opening = {0, 0, kWidth, kHeight}) const {
         FinePixels pixels(facets, weld, kWidth, kHeight);
-        pixels.find(places, seen, opening);
+        std::vector<raster::Bounds> boxes;
+        for (const raster::Facet& facet : facets) boxes.push_back(box_of(facet));
+        pixels.find({facets, nodes, boxes, seen, opening});
         return pixels.bits()[std::size_t(y) * pixels.words() + x / 64] >> (x % 64) & 1;
     }
 };
@@ -59,8 +71,8 @@ TEST(FinePixels, AreWhereTheOtherTriangleIsTurnedAway) {
 
 TEST(FinePixels, AreNotAlongSeamsOfTheTexture) {
     Sheet sheet(Material::kSkin);
-    sheet.places.push_back(sheet.places[1]);
-    sheet.places.push_back(sheet.places[4]);
+    sheet.nodes.push_back(sheet.nodes[1]);
+    sheet.nodes.push_back(sheet.nodes[4]);
     sheet.weld = {0, 1, 2, 3, 4, 5, 1, 4};
     for (int& node : sheet.facets[2].node) node = node == 1 ? 6 : node;
     for (int& node : sheet.facets[3].node) node = node == 1 ? 6 : node == 4 ? 7 : node;
@@ -86,7 +98,7 @@ TEST(FinePixels, InsideTheMouthAreSeenThroughTheOpening) {
 
 TEST(FinePixels, OutsideThePictureAreLeftOut) {
     Sheet sheet(Material::kLips);
-    for (raster::Place& place : sheet.places) place.x -= 40 * kSteps, place.y += 30 * kSteps;
+    for (raster::Node& node : sheet.nodes) node.place.x -= 40 * kSteps, node.place.y += 30 * kSteps;
     EXPECT_TRUE(sheet.fine(0, 50));
     EXPECT_FALSE(sheet.fine(kWidth - 1, 50));
 }
