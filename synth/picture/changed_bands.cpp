@@ -20,6 +20,19 @@ Rect common(const Rect& a, const Rect& b) {
             std::max(0, std::min(a.bottom + a.height, b.bottom + b.height) - bottom)};
 }
 
+Rect box_of(std::span<const int> nodes, std::span<const Eigen::Vector2f> pixels, const Rect& whole,
+            float margin) {
+    Eigen::Vector2f low = pixels[nodes.front()], high = low;
+    for (const int node : nodes) {
+        low = low.cwiseMin(pixels[node]);
+        high = high.cwiseMax(pixels[node]);
+    }
+    const float more = margin * (high.y() - low.y());
+    const Eigen::Vector2i from = (low.array() - more).cast<int>() - 1,
+                          to = (high.array() + more).cast<int>() + 2;
+    return common(whole, {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()});
+}
+
 Extent within(const Extent& extent, const Rect& rect) {
     return {std::max<float>(extent.left, rect.left), std::min<float>(extent.right, rect.left + rect.width),
             std::max<float>(extent.bottom, rect.bottom),

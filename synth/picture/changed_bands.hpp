@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "synth/picture/rect.hpp"
@@ -27,6 +28,10 @@ Extent extent_of(const Rect& rect);
 
 bool touches(const Extent& extent, const Rect& rect);
 Rect common(const Rect& a, const Rect& b);  // empty: no width or no height
+// Of nodes in the picture, `margin` of its height larger on each side, as far as it lies within `whole`.
+Rect box_of(std::span<const int> nodes, std::span<const Eigen::Vector2f> pixels, const Rect& whole,
+            float margin = 0);
+
 Extent within(const Extent& extent, const Rect& rect);
 Extent both(const Extent& a, const Extent& b);  // and what is between them
 

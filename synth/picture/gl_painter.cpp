@@ -60,12 +60,12 @@ class GlPainter : public Painter {
         check_gl("uploading a face");
     }
 
-    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening, bool,
-               std::uint8_t* rgba) override {
+    void paint(const PosedVertices& posed, std::span<const Rect> rects, bool, std::uint8_t* rgba) override {
+        if (rects.empty()) return;
         context_->make_current();
         indices_.clear();
         std::vector<std::vector<Batch>> batches;
-        for (const Rect& rect : rects) batches.push_back(gather(posed, rect, opening));
+        for (const Rect& rect : rects) batches.push_back(gather(posed, rect, posed.mouth().opening()));
         const auto vertices = posed.vertices();
         fill_buffer(buffers_.vertices, vertices.data(), vertices.size(), GL_STREAM_DRAW);
         glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices_.size() * sizeof(GLuint)), indices_.data(),

@@ -92,23 +92,18 @@ Vectors rows(const NodesF& all, const int* nodes, int count) {
 }  // namespace
 
 MouthLight::MouthLight(const Face& face) : lips_(face.lips) {
-    for (const FacePart& part : face.parts) {
-        has_lips_ |= part.material == Material::kLips;
-        if (part.material < Material::kMouth || part.material > Material::kTongue) continue;
-        for (int i = 0; i < part.nodes; ++i) inside_.push_back(part.first_node + i);
-    }
+    for (const FacePart& part : face.parts) has_lips_ |= part.material == Material::kLips;
 }
 
-void MouthLight::compute(const NodesF& places, const NodesF& normals, WorkPool& pool,
-                         std::vector<float>& light) const {
-    light.assign(places.rows(), 1.0f);
+void MouthLight::compute(const NodesF& places, const NodesF& normals, std::span<const int> inside,
+                         WorkPool& pool, std::vector<float>& light) const {
     if (!has_lips_) return;
     const Opening corners = opening_of(lips_, places);
-    const int nodes = static_cast<int>(inside_.size());
+    const int nodes = static_cast<int>(inside.size());
     pool.share((nodes + kInOneGo - 1) / kInOneGo, [&](int item, int) {
         const int end = std::min(nodes, (item + 1) * kInOneGo);
         for (int first = item * kInOneGo; first < end; first += kAtOnce) {
-            const int* some = &inside_[first];
+            const int* some = &inside[first];
             const int count = std::min(kAtOnce, end - first);
             const Numbers lights = light_at(corners, rows(places, some, count), rows(normals, some, count));
             for (int i = 0; i < count; ++i) light[some[i]] = in_steps(lights[i]);

@@ -8,6 +8,7 @@
 // touch.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "synth/picture/surface_frame.hpp"
@@ -18,8 +19,9 @@ namespace viaface {
 class MouthLight {
   public:
     explicit MouthLight(const Face& face);
-    // light[node], 0 to 1 in steps of 1/255; nodes outside the mouth are left alone (1).
-    void compute(const NodesF& places, const NodesF& normals, WorkPool& pool,
+    // light[node], 0 to 1 in steps of 1/255, of the given nodes inside the mouth and of the lips. Without
+    // lips nothing is darker than elsewhere, and `light` stays as it is.
+    void compute(const NodesF& places, const NodesF& normals, std::span<const int> inside, WorkPool& pool,
                  std::vector<float>& light) const;
 
   private:
@@ -27,7 +29,6 @@ class MouthLight {
 
     bool has_lips_ = false;
     LipGrid lips_;
-    std::vector<int> inside_;  // nodes of teeth, gums, tongue and lining
 };
 
 }  // namespace viaface

@@ -15,10 +15,10 @@ class Painter {
   public:
     virtual ~Painter() = default;
     // Draws the rectangles, which are apart from each other, into `rgba`: [height x width x 4], bottom row
-    // first. Nothing inside the mouth shows outside `opening`. With `again`, `rgba` holds what was painted
-    // last and all that `posed` calls unchanged is as it was then.
-    virtual void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening,
-                       bool again, std::uint8_t* rgba) = 0;
+    // first. Nothing inside the mouth shows outside its opening. With `again`, `rgba` holds what was painted
+    // last and all that `posed` calls unchanged is as it was then: every pose is painted, if only nowhere.
+    virtual void paint(const PosedVertices& posed, std::span<const Rect> rects, bool again,
+                       std::uint8_t* rgba) = 0;
 };
 
 std::unique_ptr<Painter> make_wire_painter(const Face& face, const View& view);

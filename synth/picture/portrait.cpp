@@ -39,13 +39,6 @@ std::vector<int> eye_nodes(const Face& face) {
     return nodes;
 }
 
-std::vector<int> inner_contour(const Face& face) {
-    std::vector<int> nodes;
-    if (triangles_of(face, Material::kLips).empty()) return nodes;
-    for (int c = 0; c < LipGrid::kColumns; ++c) nodes.push_back(face.lips.node(LipGrid::kRows - 1, c));
-    return nodes;
-}
-
 }  // namespace
 
 class Portrait::Impl {
@@ -61,21 +54,15 @@ class Portrait::Impl {
           posed_(face, view),
           bands_(view.width, view.height),
           layers_(layers_of(face)),
-          inner_contour_(inner_contour(face)),
           eyes_(view.eyes_occluded && seen_from_front(view) ? eye_nodes(face) : std::vector<int>()),
           rgba_(std::size_t(4) * view.width * view.height) {}
 
     FrameView draw(const Nodes& posed, Redraw redraw) {
         cut_.empty() ? posed_.pose(posed, *pool_) : posed_.pose(with_cut(posed, cut_), *pool_);
-        const Rect mouth = opening();
         const bool all = redraw == Redraw::kAll || !drawn_;
-        const std::vector<Rect> rects = all ? std::vector{whole()} : changed(mouth);
-        if (!rects.empty()) painter_->paint(posed_, rects, mouth, !all, rgba_.data());
-        kept_opening_ = mouth;
+        painter_->paint(posed_, all ? std::vector{whole()} : changed(), !all, rgba_.data());
         drawn_ = true;
-        const std::uint8_t* shown = eyes_.empty() ? rgba_.data() : occluded();
-        posed_.keep();
-        return bottom_up_view(view_.width, view_.height, shown);
+        return bottom_up_view(view_.width, view_.height, eyes_.empty() ? rgba_.data() : occluded());
     }
 
   private:
@@ -83,26 +70,10 @@ class Portrait::Impl {
 
     static bool seen_from_front(const View& view) { return camera_of(view).world_from_head(2, 2) > 0; }
 
-    // The box of nodes in the picture, `margin` of its height larger on each side.
-    Rect box_of(const std::vector<int>& nodes, float margin = 0) const {
-        Eigen::Vector2f low = posed_.pixel(nodes.front()), high = low;
-        for (const int node : nodes) {
-            low = low.cwiseMin(posed_.pixel(node));
-            high = high.cwiseMax(posed_.pixel(node));
-        }
-        const float more = margin * (high.y() - low.y());
-        const Eigen::Vector2i from = (low.array() - more).cast<int>() - 1,
-                              to = (high.array() + more).cast<int>() + 2;
-        return common(whole(), {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()});
-    }
-
-    // Nothing inside the mouth is drawn outside it.
-    Rect opening() const { return inner_contour_.empty() ? whole() : box_of(inner_contour_); }
-
     // The picture with a black bar over the eyes.
     const std::uint8_t* occluded() {
         occluded_ = rgba_;
-        const Rect bar = box_of(eyes_, kBarMargin);
+        const Rect bar = box_of(eyes_, posed_.pixels(), whole(), kBarMargin);
         for (int y = bar.bottom; y < bar.bottom + bar.height; ++y) {
             for (int x = bar.left; x < bar.left + bar.width; ++x)
                 std::fill_n(&occluded_[4 * (std::size_t(y) * view_.width + x)], 3, std::uint8_t{0});
@@ -110,30 +81,37 @@ class Portrait::Impl {
         return occluded_.data();
     }
 
-    std::vector<Rect> changed(const Rect& opening) {
-        const auto mark_seen = [&](const Extent& extent, const Rect& through) {
-            if (touches(extent, through)) bands_.mark(within(extent, through));
-        };
+    std::vector<Rect> changed() {
         for (const Layer& layer : layers_) {
-            const bool inside = inside_mouth(layer.material);
-            for (const auto& [a, b, c] : layer.triangles) {
-                if (!posed_.changed(a) && !posed_.changed(b) && !posed_.changed(c)) continue;
-                const Extent now = extent_of(posed_.pixel(a), posed_.pixel(b), posed_.pixel(c));
-                const Extent before =
-                    extent_of(posed_.kept_pixel(a), posed_.kept_pixel(b), posed_.kept_pixel(c));
-                if (!inside) {
-                    bands_.mark(both(now, before));
-                    continue;
-                }
-                mark_seen(now, opening);
-                mark_seen(before, kept_opening_);
+            if (inside_mouth(layer.material)) continue;
+            for (const Triangle& t : layer.triangles) {
+                if (moved(t)) bands_.mark(both(extent(t), kept_extent(t)));
             }
         }
-        if (opening != kept_opening_) {
+        const Rect &opening = posed_.mouth().opening(), &before = posed_.mouth().kept_opening();
+        for (const Triangle& t : posed_.mouth().triangles()) {
+            if (!moved(t)) continue;
+            mark_seen(extent(t), opening);
+            mark_seen(kept_extent(t), before);
+        }
+        if (opening != before) {
             bands_.mark(extent_of(opening));
-            bands_.mark(extent_of(kept_opening_));
+            bands_.mark(extent_of(before));
         }
         return bands_.take();
+    }
+
+    bool moved(const Triangle& t) const {
+        return posed_.changed(t[0]) || posed_.changed(t[1]) || posed_.changed(t[2]);
+    }
+    Extent extent(const Triangle& t) const {
+        return extent_of(posed_.pixel(t[0]), posed_.pixel(t[1]), posed_.pixel(t[2]));
+    }
+    Extent kept_extent(const Triangle& t) const {
+        return extent_of(posed_.kept_pixel(t[0]), posed_.kept_pixel(t[1]), posed_.kept_pixel(t[2]));
+    }
+    void mark_seen(const Extent& extent, const Rect& through) {
+        if (touches(extent, through)) bands_.mark(within(extent, through));
     }
 
     static constexpr float kBarMargin = 0.25f;
@@ -145,10 +123,8 @@ class Portrait::Impl {
     PosedVertices posed_;
     ChangedBands bands_;
     std::vector<Layer> layers_;
-    std::vector<int> inner_contour_;  // nodes; none without lips
-    std::vector<int> eyes_;           // nodes under the bar; none without one
+    std::vector<int> eyes_;  // nodes under the bar; none without one
     std::vector<std::uint8_t> occluded_;
-    Rect kept_opening_;
     std::vector<std::uint8_t> rgba_;
     bool drawn_ = false;
 };

@@ -33,18 +33,33 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
     : rest_(face.rest),
       least_ways_(least_ways(face, pixel_size(view))),
       node_normals_(face),
+      mouth_(face, view.width, view.height),
       mouth_light_(face),
       clip_from_head_(clip_from_head(view)),
       half_picture_(0.5f * view.width, 0.5f * view.height),
       places_(face.rest.cast<float>()),
       moved_(face.rest.rows()),
+      turned_(face.rest.rows()),
+      light_(face.rest.rows(), 1.0f),
       key_(key_shares(face, view)),
       vertices_(face.rest.rows()),
-      kept_vertices_(face.rest.rows()),
       changed_(face.rest.rows()),
       pixels_(face.rest.rows()),
       kept_pixels_(face.rest.rows()) {
     node_normals_.compute(places_, normals_);
+    for (int node = 0; node < int(face.rest.rows()); ++node) {
+        pixels_[node] = in_picture(node);
+        turned_[node] = 1;
+        finish(node);
+    }
+}
+
+Eigen::Vector2f PosedVertices::in_picture(int node) const {
+    const Eigen::Vector4f clip = clip_from_head_ * places_.row(node).transpose().homogeneous();
+    return ((clip.head<2>() / clip.w()).array() + 1)
+        .matrix()
+        .cwiseProduct(half_picture_)
+        .unaryExpr(&within_reach);
 }
 
 void PosedVertices::place(const Nodes& posed, int node) {
@@ -52,20 +67,27 @@ void PosedVertices::place(const Nodes& posed, int node) {
     const double share = drawn_share(way.squaredNorm(), least_ways_[node]);
     const Eigen::RowVector3f at = (rest_.row(node) + share * way).unaryExpr(&grained);
     moved_[node] = at != places_.row(node);
+    kept_pixels_[node] = pixels_[node];
+    if (moved_[node] == 0) return;
     places_.row(node) = at;
+    pixels_[node] = in_picture(node);
+}
+
+void PosedVertices::turn(int node) {
+    turned_[node] = !mouth_.hidden(node) && (mouth_.uncovered(node) || node_normals_.adjoins(node, moved_));
+    if (turned_[node] != 0) normals_.row(node) = node_normals_.at(node, places_);
 }
 
 void PosedVertices::finish(int node) {
-    vertices_[node] = {{places_(node, 0), places_(node, 1), places_(node, 2)},
-                       {normals_(node, 0), normals_(node, 1), normals_(node, 2)},
-                       light_[node],
-                       key_[node]};
-    changed_[node] = vertices_[node] != kept_vertices_[node];
-    const Eigen::Vector4f clip = clip_from_head_ * places_.row(node).transpose().homogeneous();
-    pixels_[node] = ((clip.head<2>() / clip.w()).array() + 1)
-                        .matrix()
-                        .cwiseProduct(half_picture_)
-                        .unaryExpr(&within_reach);
+    Vertex& vertex = vertices_[node];
+    changed_[node] = moved_[node];
+    if ((moved_[node] | turned_[node]) == 0 && light_[node] == vertex.light) return;
+    const Vertex before = vertex;
+    vertex = {{places_(node, 0), places_(node, 1), places_(node, 2)},
+              {normals_(node, 0), normals_(node, 1), normals_(node, 2)},
+              light_[node],
+              key_[node]};
+    changed_[node] |= vertex != before;
 }
 
 void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
@@ -80,10 +102,9 @@ void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
         });
     };
     for_nodes([&](int node) { place(posed, node); });
-    for_nodes([&](int node) {
-        if (node_normals_.adjoins(node, moved_)) normals_.row(node) = node_normals_.at(node, places_);
-    });
-    mouth_light_.compute(places_, normals_, pool, light_);
+    mouth_.look(pixels_, kept_pixels_);
+    for_nodes([&](int node) { turn(node); });
+    mouth_light_.compute(places_, normals_, mouth_.nodes(), pool, light_);
     for_nodes([&](int node) { finish(node); });
 }
 

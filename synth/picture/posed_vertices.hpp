@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "synth/picture/mouth_light.hpp"
+#include "synth/picture/mouth_view.hpp"
 #include "synth/picture/surface_frame.hpp"
 #include "synth/picture/view.hpp"
 
@@ -24,32 +25,34 @@ class PosedVertices {
     PosedVertices(const Face& face, const View& view);
 
     void pose(const Nodes& posed, WorkPool& pool);
+    // Of what is hidden inside the mouth places are right, normals and light may be of an earlier pose.
     std::span<const Vertex> vertices() const { return vertices_; }
-    const Eigen::Vector2f& pixel(int node) const { return pixels_[node]; }  // from the lower left corner
+    std::span<const Eigen::Vector2f> pixels() const { return pixels_; }  // from the lower left corner
+    const Eigen::Vector2f& pixel(int node) const { return pixels_[node]; }
+    const MouthView& mouth() const { return mouth_; }
 
-    // Exchanges the present pose with the one kept before.
-    void keep() {
-        kept_vertices_.swap(vertices_);
-        kept_pixels_.swap(pixels_);
-    }
-    bool changed(int node) const { return changed_[node] != 0; }  // since the pose that was kept
-    const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }
+    bool changed(int node) const { return changed_[node] != 0; }                      // since the pose before
+    const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }  // in the pose before
 
   private:
     void place(const Nodes& posed, int node);
+    void turn(int node);
     void finish(int node);
+    Eigen::Vector2f in_picture(int node) const;
 
     Nodes rest_;
     Eigen::VectorXd least_ways_;  // mm
     NodeNormals node_normals_;
+    MouthView mouth_;
     MouthLight mouth_light_;
     Eigen::Matrix4f clip_from_head_;
     Eigen::Vector2f half_picture_;
     NodesF places_;
-    std::vector<std::uint8_t> moved_;  // of each node: 1 where its place is another than in the pose before
+    std::vector<std::uint8_t> moved_;   // of each node: 1 where its place is another than in the pose before
+    std::vector<std::uint8_t> turned_;  // of each node: 1 where its normal was worked out again
     NodesF normals_;
     std::vector<float> light_, key_;
-    std::vector<Vertex> vertices_, kept_vertices_;
+    std::vector<Vertex> vertices_;
     std::vector<std::uint8_t> changed_;  // of each node
     std::vector<Eigen::Vector2f> pixels_, kept_pixels_;
 };

@@ -61,11 +61,7 @@ std::vector<raster::Facet> facets_of(const Face& face) {
 }
 
 RasterNodes::RasterNodes(const Face& face, const View& view)
-    : half_picture_(0.5f * view.width, 0.5f * view.height),
-      lash_(lashes_of(face)),
-      placed_(face.rest.rows()),
-      moved_(face.rest.rows()),
-      nodes_(face.rest.rows()) {
+    : half_picture_(0.5f * view.width, 0.5f * view.height), lash_(lashes_of(face)), nodes_(face.rest.rows()) {
     const Camera camera = camera_of(view);
     orthographic_ = camera.orthographic;
     far_ = static_cast<float>(1 / camera.place.z());
@@ -82,28 +78,31 @@ RasterNodes::RasterNodes(const Face& face, const View& view)
     }
 }
 
-void RasterNodes::place(const PosedVertices& posed, WorkPool& pool) {
+void RasterNodes::place(const PosedVertices& posed, bool again, WorkPool& pool) {
     pool.share_rows(int(nodes_.size()), [&](int first, int end) {
         for (int node = first; node < end; ++node) {
-            const Vertex& vertex = posed.vertices()[node];
-            moved_[node] = vertex != placed_[node];
-            if (moved(node)) place(vertex, node);
+            if (again && !posed.changed(node)) continue;
+            place(posed.vertices()[node], node);
+            if (!again || !posed.mouth().hidden(node)) light(posed.vertices()[node], node);
         }
     });
 }
 
 void RasterNodes::place(const Vertex& v, int i) {
-    const Eigen::Matrix3f turn = world_from_head_.topLeftCorner<3, 3>();
-    Vector3f world = turn * Vector3f(v.place) + world_from_head_.topRightCorner<3, 1>();
+    Vector3f world =
+        world_from_head_.topLeftCorner<3, 3>() * Vector3f(v.place) + world_from_head_.topRightCorner<3, 1>();
     if (lash_[i]) world += kLashesBefore * (eye_ - world).normalized();
     nodes_[i].place = place_of(clip_from_world_ * world.homogeneous(), world.z());
+}
+
+void RasterNodes::light(const Vertex& v, int i) {
+    const Eigen::Matrix3f turn = world_from_head_.topLeftCorner<3, 3>();
     const Vector3f normal(v.normal), tangent = tangents_.row(i).head<3>().transpose();
     const Vector3f along = (tangent - normal * normal.dot(tangent)).normalized();
     Vector3f::Map(nodes_[i].normal) = turn * normal;
     Vector3f::Map(nodes_[i].tangent) = turn * along;
     nodes_[i].light = v.light;
     nodes_[i].key = v.key;
-    placed_[i] = v;
 }
 
 raster::Place RasterNodes::place_of(const Eigen::Vector4f& clip, float height) const {

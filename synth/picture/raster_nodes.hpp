@@ -1,5 +1,4 @@
-// A face's nodes as the rasteriser takes them, and what each of its triangles is. Only nodes that have
-// changed are worked out again.
+// A face's nodes as the rasteriser takes them, and what each of its triangles is.
 #pragma once
 
 #include <vector>
@@ -18,12 +17,13 @@ class RasterNodes {
   public:
     RasterNodes(const Face& face, const View& view);
 
-    void place(const PosedVertices& posed, WorkPool& pool);
+    // With `again`, nodes that `posed` calls unchanged stay, and what is hidden gets its place alone.
+    void place(const PosedVertices& posed, bool again, WorkPool& pool);
     const std::vector<raster::Node>& nodes() const { return nodes_; }
-    bool moved(int node) const { return moved_[node] != 0; }  // or lit otherwise, by the last call of place
 
   private:
     void place(const Vertex& vertex, int node);
+    void light(const Vertex& vertex, int node);
     raster::Place place_of(const Eigen::Vector4f& clip, float height) const;
 
     bool orthographic_;
@@ -33,8 +33,6 @@ class RasterNodes {
     Eigen::Vector3f eye_;
     std::vector<std::uint8_t> lash_;  // of each node: 1 where it is a lash's
     Tangents tangents_;
-    std::vector<Vertex> placed_;       // what nodes_ stand for
-    std::vector<std::uint8_t> moved_;  // of each node
     std::vector<raster::Node> nodes_;
 };
 

@@ -79,17 +79,19 @@ class RasterPainter : public Painter {
         prepare_scene(view);
     }
 
-    void paint(const PosedVertices& posed, std::span<const Rect> rects, const Rect& opening, bool again,
+    void paint(const PosedVertices& posed, std::span<const Rect> rects, bool again,
                std::uint8_t* rgba) override {
-        nodes_.place(posed, pool_);
+        nodes_.place(posed, again, pool_);
+        const Rect& opening = posed.mouth().opening();
         raster::Scene scene = scene_;
         scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
         scene.opening = {opening.left, opening.bottom, opening.left + opening.width,
                          opening.bottom + opening.height};
         pool_.share_rows(int(facets_.size()), [&](int first, int end) {
-            for (int i = first; i < end; ++i) of_facets_.still[i] = again && !moved(facets_[i]);
+            for (int i = first; i < end; ++i) of_facets_.still[i] = again && !changed(posed, facets_[i]);
             kernel_.set_up(scene, first, end);
         });
+        if (rects.empty()) return;
         const Visible visible{facets_, nodes_.nodes(), of_facets_.boxes, of_facets_.seen, scene.opening};
         pool_.share(2, [&](int item, int) { item == 0 ? lists_.list(rects, visible) : fine_.find(visible); });
         pool_.share(int(lists_.stripes().size()), [&](int item, int thread) {
@@ -150,9 +152,9 @@ class RasterPainter : public Painter {
         set(2, 0, 2.0 / view.height, 0);
     }
 
-    bool moved(const raster::Facet& facet) const {
+    static bool changed(const PosedVertices& posed, const raster::Facet& facet) {
         const auto& [a, b, c] = facet.node;
-        return nodes_.moved(a) || nodes_.moved(b) || nodes_.moved(c);
+        return posed.changed(a) || posed.changed(b) || posed.changed(c);
     }
 
     std::vector<raster::Facet> facets_;

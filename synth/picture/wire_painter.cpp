@@ -90,8 +90,8 @@ class WirePainter : public Painter {
           depths_(std::size_t(view.width) * view.height) {}
 
     // The whole picture, whatever the rectangles are.
-    void paint(const PosedVertices& posed, std::span<const Rect>, const Rect&, bool,
-               std::uint8_t* rgba) override {
+    void paint(const PosedVertices& posed, std::span<const Rect> rects, bool, std::uint8_t* rgba) override {
+        if (rects.empty()) return;
         place(posed);
         std::ranges::fill(depths_, 1.0f);
         faces_.assign(triangles_.size(), false);

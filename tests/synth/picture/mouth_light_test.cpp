@@ -31,9 +31,10 @@ Face ring_and_node(double half_width, double half_height, double behind) {
 float light_of_node(const Face& face) {
     NodesF normals = NodesF::Zero(face.rest.rows(), 3);
     normals.col(2).setOnes();
-    std::vector<float> light;
+    std::vector<float> light(face.rest.rows(), 1.0f);
     WorkPool pool(1);
-    MouthLight(face).compute(face.rest.cast<float>(), normals, pool, light);
+    const int tongue[] = {int(face.rest.rows()) - 1};
+    MouthLight(face).compute(face.rest.cast<float>(), normals, tongue, pool, light);
     return light.back();
 }
 
@@ -62,9 +63,9 @@ TEST(MouthLight, InFrontOfTheLipsIsFullLight) { EXPECT_EQ(light_of_node(ring_and
 TEST(MouthLight, LipsDarkenWhereTheyTouch) {
     const auto darkest = [](double half_height) {
         const Face face = ring_and_node(20, half_height, 25);
-        std::vector<float> light;
+        std::vector<float> light(face.rest.rows(), 1.0f);
         WorkPool pool(1);
-        MouthLight(face).compute(face.rest.cast<float>(), NodesF::Zero(face.rest.rows(), 3), pool, light);
+        MouthLight(face).compute(face.rest.cast<float>(), NodesF::Zero(face.rest.rows(), 3), {}, pool, light);
         return light[face.lips.node(LipGrid::kRows - 1, 0)];
     };
     EXPECT_LT(darkest(0.01), 0.3);

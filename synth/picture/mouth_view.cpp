@@ -1,0 +1,54 @@
+#include "synth/picture/mouth_view.hpp"
+
+#include "synth/picture/changed_bands.hpp"
+#include "synth/picture/layers.hpp"
+
+namespace viaface {
+namespace {
+
+std::vector<int> inner_contour(const Face& face) {
+    std::vector<int> nodes;
+    if (triangles_of(face, Material::kLips).empty()) return nodes;
+    for (int c = 0; c < LipGrid::kColumns; ++c) nodes.push_back(face.lips.node(LipGrid::kRows - 1, c));
+    return nodes;
+}
+
+}  // namespace
+
+MouthView::MouthView(const Face& face, int width, int height)
+    : whole_{0, 0, width, height},
+      opening_(whole_),
+      kept_opening_(whole_),
+      inner_contour_(inner_contour(face)),
+      shown_(face.rest.rows(), 1),
+      kept_shown_(face.rest.rows(), 1) {
+    for (const FacePart& part : face.parts) {
+        if (!inside_mouth(part.material)) continue;
+        inside_.insert(inside_.end(), part.triangles.begin(), part.triangles.end());
+        for (int i = 0; i < part.nodes; ++i) inside_nodes_.push_back(part.first_node + i);
+    }
+}
+
+void MouthView::look(std::span<const Eigen::Vector2f> pixels, std::span<const Eigen::Vector2f> kept_pixels) {
+    kept_opening_ = opening_;
+    opening_ = inner_contour_.empty() ? whole_ : box_of(inner_contour_, pixels, whole_);
+    shown_.swap(kept_shown_);
+    for (const int node : inside_nodes_) shown_[node] = 0;
+    triangles_.clear();
+    nodes_.clear();
+    for (const Triangle& t : inside_) {
+        if (touches(extent_of(pixels[t[0]], pixels[t[1]], pixels[t[2]]), opening_) ||
+            touches(extent_of(kept_pixels[t[0]], kept_pixels[t[1]], kept_pixels[t[2]]), kept_opening_))
+            show(t);
+    }
+}
+
+void MouthView::show(const Triangle& triangle) {
+    triangles_.push_back(triangle);
+    for (const int node : triangle) {
+        if (shown_[node] == 0) nodes_.push_back(node);
+        shown_[node] = 1;
+    }
+}
+
+}  // namespace viaface
