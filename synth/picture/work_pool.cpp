@@ -6,6 +6,12 @@ namespace viaface {
 namespace {
 
 constexpr int kRowsAtOnce = 2048;
+constexpr int kLooks = 100;  // before sleep, some tens of microseconds
+
+template <class Ready>
+void look_for(const Ready& ready) {
+    for (int i = 0; i < kLooks && !ready(); ++i) std::this_thread::yield();
+}
 
 }  // namespace
 
@@ -27,8 +33,14 @@ void WorkPool::share(int items, const Work& work) {
     work_ = &work;
     next_ = 0;
     items_ = unfinished_ = items;
-    if (items > 1) called_.notify_all();
+    if (items > 1) {
+        ++calls_;
+        called_.notify_all();
+    }
     take_items(lock, 0);
+    lock.unlock();
+    look_for([&] { return unfinished_ == 0; });
+    lock.lock();
     done_.wait(lock, [&] { return unfinished_ == 0; });
 }
 
@@ -43,6 +55,10 @@ void WorkPool::serve(int thread) {
         called_.wait(lock, [&] { return over_ || next_ < items_; });
         if (over_) return;
         take_items(lock, thread);
+        const unsigned calls = calls_;
+        lock.unlock();
+        look_for([&] { return calls_ != calls; });
+        lock.lock();
     }
 }
 

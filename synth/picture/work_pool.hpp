@@ -1,6 +1,8 @@
-// A few threads that share numbered work; the caller is one of them.
+// A few threads that share numbered work; the caller is one of them. Who has nothing to do looks for work a
+// little while before he sleeps, as one piece of work mostly follows upon another.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -32,8 +34,10 @@ class WorkPool {
     std::mutex mutex_;
     std::condition_variable called_, done_;
     const Work* work_ = nullptr;
-    int next_ = 0, items_ = 0, unfinished_ = 0;
-    bool over_ = false;
+    int next_ = 0, items_ = 0;  // with the mutex
+    bool over_ = false;         // with the mutex
+    std::atomic<int> unfinished_ = 0;
+    std::atomic<unsigned> calls_ = 0;
     std::vector<std::thread> workers_;
 };
 
