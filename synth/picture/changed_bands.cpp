@@ -4,16 +4,6 @@
 
 namespace viaface {
 
-Extent extent_of(const Rect& rect) {
-    return {float(rect.left), float(rect.left + rect.width), float(rect.bottom),
-            float(rect.bottom + rect.height)};
-}
-
-bool touches(const Extent& extent, const Rect& rect) {
-    return extent.left < rect.left + rect.width && extent.right > rect.left &&
-           extent.bottom < rect.bottom + rect.height && extent.top > rect.bottom;
-}
-
 Rect common(const Rect& a, const Rect& b) {
     const int left = std::max(a.left, b.left), bottom = std::max(a.bottom, b.bottom);
     return {left, bottom, std::max(0, std::min(a.left + a.width, b.left + b.width) - left),
@@ -33,32 +23,21 @@ Rect box_of(std::span<const int> nodes, std::span<const Eigen::Vector2f> pixels,
     return common(whole, {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()});
 }
 
-Extent within(const Extent& extent, const Rect& rect) {
-    return {std::max<float>(extent.left, rect.left), std::min<float>(extent.right, rect.left + rect.width),
-            std::max<float>(extent.bottom, rect.bottom),
-            std::min<float>(extent.top, rect.bottom + rect.height)};
-}
-
-Extent both(const Extent& a, const Extent& b) {
-    return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.bottom, b.bottom),
-            std::max(a.top, b.top)};
-}
-
 ChangedBands::ChangedBands(int width, int height)
     : width_(width),
       height_(height),
+      all_(Extent::of(Rect{0, 0, width, height})),
       columns_((width + kTile - 1) / kTile),
       rows_((height + kTile - 1) / kTile),
       marked_(std::size_t(columns_) * rows_) {}
 
 void ChangedBands::mark(const Extent& extent) {
-    if (!touches(extent, {0, 0, width_, height_})) return;
-    const int left = std::max(0, int(extent.left) / kTile);
-    const int right = std::min(columns_ - 1, int(extent.right) / kTile);
-    const int last = std::min(rows_ - 1, int(extent.top) / kTile);
-    for (int row = std::max(0, int(extent.bottom) / kTile); row <= last; ++row) {
-        const auto tiles = marked_.begin() + std::ptrdiff_t(row) * columns_;
-        std::fill(tiles + left, tiles + right + 1, 1);
+    if (!touch(extent, all_)) return;
+    const Eigen::Array4i tiles = (within(extent, all_).bounds * (1.0f / kTile)).cast<int>();
+    const int left = tiles[0], right = std::min(columns_ - 1, -tiles[2]);
+    const int bottom = tiles[1], top = std::min(rows_ - 1, -tiles[3]);
+    for (int row = bottom; row <= top; ++row) {
+        for (int column = left; column <= right; ++column) marked_[std::size_t(row) * columns_ + column] = 1;
     }
 }
 

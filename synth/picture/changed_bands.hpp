@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,28 +11,35 @@
 
 namespace viaface {
 
+// Pixels from left to right and from bottom to top, with the signs turned so that the least of each holds
+// all.
 struct Extent {
-    float left, right, bottom, top;  // pixels
+    Eigen::Array4f bounds;  // left, bottom, -right, -top
+
+    static Extent of(const Eigen::Vector2f& at) { return {{at.x(), at.y(), -at.x(), -at.y()}}; }
+    static Extent of(const Rect& rect) {
+        return {{float(rect.left), float(rect.bottom), -float(rect.left + rect.width),
+                 -float(rect.bottom + rect.height)}};
+    }
 };
 
-// All of what a triangle can touch, the reach of its edges' samples included.
-inline Extent extent_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
-    constexpr float kReach = 1.5f;  // pixels
-    return {
-        std::min(std::min(a.x(), b.x()), c.x()) - kReach, std::max(std::max(a.x(), b.x()), c.x()) + kReach,
-        std::min(std::min(a.y(), b.y()), c.y()) - kReach, std::max(std::max(a.y(), b.y()), c.y()) + kReach};
+// And what is between them.
+inline Extent both(const Extent& a, const Extent& b) { return {a.bounds.min(b.bounds)}; }
+inline Extent within(const Extent& a, const Extent& b) { return {a.bounds.max(b.bounds)}; }
+inline bool touch(const Extent& a, const Extent& b) {
+    return (a.bounds + Eigen::Array4f(b.bounds[2], b.bounds[3], b.bounds[0], b.bounds[1]) < 0).all();
 }
 
-Extent extent_of(const Rect& rect);
+// All of what a triangle with these corners can touch, the reach of its edges' samples included.
+inline Extent extent_of(const Extent& a, const Extent& b, const Extent& c) {
+    constexpr float kReach = 1.5f;  // pixels
+    return {both(both(a, b), c).bounds - kReach};
+}
 
-bool touches(const Extent& extent, const Rect& rect);
 Rect common(const Rect& a, const Rect& b);  // empty: no width or no height
 // Of nodes in the picture, `margin` of its height larger on each side, as far as it lies within `whole`.
 Rect box_of(std::span<const int> nodes, std::span<const Eigen::Vector2f> pixels, const Rect& whole,
             float margin = 0);
-
-Extent within(const Extent& extent, const Rect& rect);
-Extent both(const Extent& a, const Extent& b);  // and what is between them
 
 class ChangedBands {
   public:
@@ -52,6 +58,7 @@ class ChangedBands {
     std::vector<Run> runs_of(int row) const;
 
     int width_, height_;
+    Extent all_;
     int columns_, rows_;                // of tiles
     std::vector<std::uint8_t> marked_;  // [rows x columns]
 };

@@ -25,7 +25,7 @@ std::int32_t along(const Place& a, const Place& b, std::int32_t height) {
 
 FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const int> weld, int width,
                        int height)
-    : width_(width), height_(height), words_((width + 63) / 64 + 1), bits_(std::size_t(words_) * height) {
+    : words_((width + 63) / 64 + 1), bits_(std::size_t(words_) * height) {
     std::map<std::pair<int, int>, std::size_t> known;  // edges by their welded nodes
     for (int i = 0; i < int(facets.size()); ++i) {
         if (facets[i].fine) covering_.push_back(i);
@@ -48,33 +48,32 @@ void FinePixels::find(const Visible& visible) {
     std::ranges::fill(bits_, 0);
     for (const auto& [from, to, facets] : edges_) {
         const bool first = visible.seen[facets[0]], second = facets[1] != kNone && visible.seen[facets[1]];
-        if (first != second) mark_outline(visible.nodes[from].place, visible.nodes[to].place);
+        if (first != second) mark_outline(visible.nodes[from].place, visible.nodes[to].place, visible.drawn);
     }
     for (const int i : covering_) {
         if (visible.seen[i]) mark(box_of(visible, i));
     }
 }
 
-void FinePixels::mark_outline(const Place& a, const Place& b) {
+void FinePixels::mark_outline(const Place& a, const Place& b, const Bounds& drawn) {
     const Place &low = a.y < b.y ? a : b, &high = a.y < b.y ? b : a;
-    const std::int32_t last = floor_pixel(high.y + kNear);
-    for (std::int32_t y = floor_pixel(low.y - kNear); y <= last; ++y) {
+    const std::int32_t end = std::min(drawn.top, floor_pixel(high.y + kNear) + 1);
+    for (std::int32_t y = std::max(drawn.bottom, floor_pixel(low.y - kNear)); y < end; ++y) {
         const std::int32_t under = along(low, high, y * raster::kSteps - kNear),
                            over = along(low, high, (y + 1) * raster::kSteps + kNear);
-        mark({floor_pixel(std::min(under, over) - kNear), y, floor_pixel(std::max(under, over) + kNear) + 1,
-              y + 1});
+        const Bounds row{floor_pixel(std::min(under, over) - kNear), y,
+                         floor_pixel(std::max(under, over) + kNear) + 1, y + 1};
+        mark(raster::common(row, drawn));
     }
 }
 
 void FinePixels::mark(const Bounds& box) {
-    const Bounds seen = raster::common(box, {0, 0, width_, height_});
-    for (std::int32_t y = seen.bottom; y < seen.top; ++y) {
-        std::uint64_t* const row = &bits_[std::size_t(y) * words_];
-        for (std::int32_t x = seen.left; x < seen.right;) {
-            const std::int32_t end = std::min(seen.right, (x | 63) + 1);
-            row[x >> 6] |= (~std::uint64_t{0} >> (64 - (end - x))) << (x & 63);
-            x = end;
-        }
+    for (std::int32_t left = box.left; left < box.right;) {
+        const std::int32_t right = std::min(box.right, (left | 63) + 1);
+        const std::uint64_t bits = (~std::uint64_t{0} >> (64 - (right - left))) << (left & 63);
+        for (std::int32_t y = box.bottom; y < box.top; ++y)
+            bits_[std::size_t(y) * words_ + (left >> 6)] |= bits;
+        left = right;
     }
 }
 

@@ -17,7 +17,7 @@ class FinePixels {
     // `weld` gives for each node the one that stands for all at its place.
     FinePixels(std::span<const raster::Facet> facets, std::span<const int> weld, int width, int height);
 
-    void find(const Visible& visible);  // of the facets given at first
+    void find(const Visible& visible);  // of the facets given at first, where something is drawn
 
     // [height x words], a bit for each pixel, the lowest first; one word is over in each row.
     const std::vector<std::uint64_t>& bits() const { return bits_; }
@@ -30,12 +30,12 @@ class FinePixels {
         std::array<int, 2> facets;  // the second may be kNone
     };
 
-    void mark_outline(const raster::Place& a, const raster::Place& b);
-    void mark(const raster::Bounds& box);
+    void mark_outline(const raster::Place& a, const raster::Place& b, const raster::Bounds& drawn);
+    void mark(const raster::Bounds& box);  // within the picture
 
     std::vector<Edge> edges_;
     std::vector<int> covering_;  // facets that are fine throughout
-    int width_, height_, words_;
+    int words_;
     std::vector<std::uint64_t> bits_;
 };
 

@@ -98,7 +98,8 @@ class GlPainter : public Painter {
             const bool culled = !two_sided(layer.material);
             if (seen.width == 0 || seen.height == 0) continue;
             for (const Triangle& t : layer.triangles) {
-                if (!touches(extent_of(posed.pixel(t[0]), posed.pixel(t[1]), posed.pixel(t[2])), seen))
+                if (!touch(extent_of(posed.swept(t[0]), posed.swept(t[1]), posed.swept(t[2])),
+                           Extent::of(seen)))
                     continue;
                 if (culled && turned_away(posed, t)) continue;
                 for (const int node : t) indices_.push_back(static_cast<GLuint>(node));

@@ -1,6 +1,5 @@
 #include "synth/picture/mouth_view.hpp"
 
-#include "synth/picture/changed_bands.hpp"
 #include "synth/picture/layers.hpp"
 
 namespace viaface {
@@ -29,17 +28,16 @@ MouthView::MouthView(const Face& face, int width, int height)
     }
 }
 
-void MouthView::look(std::span<const Eigen::Vector2f> pixels, std::span<const Eigen::Vector2f> kept_pixels) {
+void MouthView::look(std::span<const Eigen::Vector2f> pixels, std::span<const Extent> swept) {
     kept_opening_ = opening_;
     opening_ = inner_contour_.empty() ? whole_ : box_of(inner_contour_, pixels, whole_);
     shown_.swap(kept_shown_);
     for (const int node : inside_nodes_) shown_[node] = 0;
     triangles_.clear();
     nodes_.clear();
+    const Extent through = swept_opening();
     for (const Triangle& t : inside_) {
-        if (touches(extent_of(pixels[t[0]], pixels[t[1]], pixels[t[2]]), opening_) ||
-            touches(extent_of(kept_pixels[t[0]], kept_pixels[t[1]], kept_pixels[t[2]]), kept_opening_))
-            show(t);
+        if (touch(extent_of(swept[t[0]], swept[t[1]], swept[t[2]]), through)) show(t);
     }
 }
 

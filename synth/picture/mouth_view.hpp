@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "facemodel/face.hpp"
-#include "synth/picture/rect.hpp"
+#include "synth/picture/changed_bands.hpp"
 
 namespace viaface {
 
@@ -16,12 +16,14 @@ class MouthView {
   public:
     MouthView(const Face& face, int width, int height);
 
-    // [nodes], of this pose and of the one before, for which this was called last.
-    void look(std::span<const Eigen::Vector2f> pixels, std::span<const Eigen::Vector2f> kept_pixels);
+    // [nodes]: where they are in this pose, and in this one and the one before, for which this was called
+    // last.
+    void look(std::span<const Eigen::Vector2f> pixels, std::span<const Extent> swept);
 
     // The box of the inner lip contour; all of the picture for a face without lips.
     const Rect& opening() const { return opening_; }
-    const Rect& kept_opening() const { return kept_opening_; }  // in the pose before
+    Extent swept_opening() const { return both(Extent::of(opening_), Extent::of(kept_opening_)); }
+    bool opening_changed() const { return opening_ != kept_opening_; }  // since the pose before
 
     // What may show, now or in the pose before.
     std::span<const Triangle> triangles() const { return triangles_; }

@@ -85,33 +85,22 @@ class Portrait::Impl {
         for (const Layer& layer : layers_) {
             if (inside_mouth(layer.material)) continue;
             for (const Triangle& t : layer.triangles) {
-                if (moved(t)) bands_.mark(both(extent(t), kept_extent(t)));
+                if (moved(t)) bands_.mark(swept(t));
             }
         }
-        const Rect &opening = posed_.mouth().opening(), &before = posed_.mouth().kept_opening();
+        const Extent opening = posed_.mouth().swept_opening();
         for (const Triangle& t : posed_.mouth().triangles()) {
-            if (!moved(t)) continue;
-            mark_seen(extent(t), opening);
-            mark_seen(kept_extent(t), before);
+            if (moved(t)) bands_.mark(within(swept(t), opening));
         }
-        if (opening != before) {
-            bands_.mark(extent_of(opening));
-            bands_.mark(extent_of(before));
-        }
+        if (posed_.mouth().opening_changed()) bands_.mark(opening);
         return bands_.take();
     }
 
     bool moved(const Triangle& t) const {
         return posed_.changed(t[0]) || posed_.changed(t[1]) || posed_.changed(t[2]);
     }
-    Extent extent(const Triangle& t) const {
-        return extent_of(posed_.pixel(t[0]), posed_.pixel(t[1]), posed_.pixel(t[2]));
-    }
-    Extent kept_extent(const Triangle& t) const {
-        return extent_of(posed_.kept_pixel(t[0]), posed_.kept_pixel(t[1]), posed_.kept_pixel(t[2]));
-    }
-    void mark_seen(const Extent& extent, const Rect& through) {
-        if (touches(extent, through)) bands_.mark(within(extent, through));
+    Extent swept(const Triangle& t) const {
+        return extent_of(posed_.swept(t[0]), posed_.swept(t[1]), posed_.swept(t[2]));
     }
 
     static constexpr float kBarMargin = 0.25f;

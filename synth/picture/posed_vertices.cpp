@@ -45,7 +45,7 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
       vertices_(face.rest.rows()),
       changed_(face.rest.rows()),
       pixels_(face.rest.rows()),
-      kept_pixels_(face.rest.rows()) {
+      swept_(face.rest.rows()) {
     node_normals_.compute(places_, normals_);
     for (int node = 0; node < int(face.rest.rows()); ++node) {
         pixels_[node] = in_picture(node);
@@ -67,10 +67,11 @@ void PosedVertices::place(const Nodes& posed, int node) {
     const double share = drawn_share(way.squaredNorm(), least_ways_[node]);
     const Eigen::RowVector3f at = (rest_.row(node) + share * way).unaryExpr(&grained);
     moved_[node] = at != places_.row(node);
-    kept_pixels_[node] = pixels_[node];
+    swept_[node] = Extent::of(pixels_[node]);
     if (moved_[node] == 0) return;
     places_.row(node) = at;
     pixels_[node] = in_picture(node);
+    swept_[node] = both(swept_[node], Extent::of(pixels_[node]));
 }
 
 void PosedVertices::turn(int node) {
@@ -102,7 +103,7 @@ void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
         });
     };
     for_nodes([&](int node) { place(posed, node); });
-    mouth_.look(pixels_, kept_pixels_);
+    mouth_.look(pixels_, swept_);
     for_nodes([&](int node) { turn(node); });
     mouth_light_.compute(places_, normals_, mouth_.nodes(), pool, light_);
     for_nodes([&](int node) { finish(node); });

@@ -31,8 +31,8 @@ class PosedVertices {
     const Eigen::Vector2f& pixel(int node) const { return pixels_[node]; }
     const MouthView& mouth() const { return mouth_; }
 
-    bool changed(int node) const { return changed_[node] != 0; }                      // since the pose before
-    const Eigen::Vector2f& kept_pixel(int node) const { return kept_pixels_[node]; }  // in the pose before
+    bool changed(int node) const { return changed_[node] != 0; }  // since the pose before
+    const Extent& swept(int node) const { return swept_[node]; }  // where it is and was in the pose before
 
   private:
     void place(const Nodes& posed, int node);
@@ -54,7 +54,8 @@ class PosedVertices {
     std::vector<float> light_, key_;
     std::vector<Vertex> vertices_;
     std::vector<std::uint8_t> changed_;  // of each node
-    std::vector<Eigen::Vector2f> pixels_, kept_pixels_;
+    std::vector<Eigen::Vector2f> pixels_;
+    std::vector<Extent> swept_;
 };
 
 }  // namespace viaface

@@ -43,13 +43,32 @@ VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide 
     for (int i = 0; i < 8; ++i) channels[i] *= 1.0f / 255;
 }
 
+// Of eight facets.
+struct Corners {
+    const std::byte* nodes;
+    std::uint32_t offsets[3][8];  // bytes
+
+    VIAFACE_INLINE Corners(const Scene& scene, const std::int32_t* facets)
+        : nodes(reinterpret_cast<const std::byte*>(scene.nodes)) {
+        Four rows[8];
+        for (int lane = 0; lane < 8; ++lane)
+            rows[lane] = load<Four>(scene.facets[std::uint32_t(facets[lane])].node);
+        Wide columns[4];
+        turn(rows, columns);
+        for (int i = 0; i < 3; ++i) store(offsets[i], WideInt(columns[i]) * std::int32_t(sizeof(Node)));
+    }
+    VIAFACE_INLINE const Node& node(int corner, int lane) const {
+        return *reinterpret_cast<const Node*>(nodes + offsets[corner][lane]);
+    }
+};
+
 // The corners' shares at the fragments' middles, corrected for perspective. Fragments beyond an edge, whose
 // middle is not covered, take shares that end half a triangle from it.
-VIAFACE_INLINE void share_out(const Node* const (&corners)[3][8], WideInt x, WideInt y, Wide (&shares)[3]) {
+VIAFACE_INLINE void share_out(const Corners& corners, WideInt x, WideInt y, Wide (&shares)[3]) {
     Wide right[3], up[3], nearness[3];
     for (int i = 0; i < 3; ++i) {
         Four rows[8];
-        for (int lane = 0; lane < 8; ++lane) rows[lane] = load<Four>(&corners[i][lane]->place);
+        for (int lane = 0; lane < 8; ++lane) rows[lane] = load<Four>(&corners.node(i, lane).place);
         Wide columns[4];
         turn(rows, columns);
         right[i] = __builtin_convertvector(WideInt(columns[0]) - (x * kSteps + kSteps / 2), Wide);
@@ -76,14 +95,10 @@ VIAFACE_INLINE Three way_to_camera(const Scene& scene, Wide x, Wide y) {
 
 // At the middles of eight fragments' pixels.
 VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt x, WideInt y) {
-    const Node* corners[3][8];
     const Level* levels[8];
-    for (int lane = 0; lane < 8; ++lane) {
-        const auto at = std::uint32_t(facets[lane]);
-        const Facet& facet = scene.facets[at];
-        levels[lane] = scene.levels + scene.triangles.triangles[at].level;
-        for (int i = 0; i < 3; ++i) corners[i][lane] = scene.nodes + std::uint32_t(facet.node[i]);
-    }
+    for (int lane = 0; lane < 8; ++lane)
+        levels[lane] = scene.levels + scene.triangles.triangles[std::uint32_t(facets[lane])].level;
+    const Corners corners(scene, facets);
     Wide shares[3];
     share_out(corners, x, y, shares);
     float shares_of[3][8];
@@ -91,7 +106,7 @@ VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt
     Wide places[8];
     Four lights[8];
     for (int lane = 0; lane < 8; ++lane) {
-        const Node &a = *corners[0][lane], &b = *corners[1][lane], &c = *corners[2][lane];
+        const Node &a = corners.node(0, lane), &b = corners.node(1, lane), &c = corners.node(2, lane);
         const float u = shares_of[0][lane], v = shares_of[1][lane], w = shares_of[2][lane];
         places[lane] = load<Wide>(a.normal) * u + load<Wide>(b.normal) * v + load<Wide>(c.normal) * w;
         lights[lane] = load<Four>(&a.light) * u + load<Four>(&b.light) * v + load<Four>(&c.light) * w;

@@ -60,6 +60,21 @@ struct FacetArrays {
         : triangles(facets), boxes(facets), seen(facets), still(facets) {}
 };
 
+raster::Bounds bounds_of(const Rect& rect) {
+    return {rect.left, rect.bottom, rect.left + rect.width, rect.bottom + rect.height};
+}
+
+// What holds them all.
+raster::Bounds bounds_of(std::span<const Rect> rects) {
+    raster::Bounds all = bounds_of(rects.front());
+    for (const Rect& rect : rects) {
+        const raster::Bounds one = bounds_of(rect);
+        all = {std::min(all.left, one.left), std::min(all.bottom, one.bottom), std::max(all.right, one.right),
+               std::max(all.top, one.top)};
+    }
+    return all;
+}
+
 class RasterPainter : public Painter {
   public:
     RasterPainter(const Face& face, const View& view, Instructions instructions, WorkPool& pool)
@@ -82,17 +97,16 @@ class RasterPainter : public Painter {
     void paint(const PosedVertices& posed, std::span<const Rect> rects, bool again,
                std::uint8_t* rgba) override {
         nodes_.place(posed, again, pool_);
-        const Rect& opening = posed.mouth().opening();
         raster::Scene scene = scene_;
         scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
-        scene.opening = {opening.left, opening.bottom, opening.left + opening.width,
-                         opening.bottom + opening.height};
+        scene.opening = bounds_of(posed.mouth().opening());
         pool_.share_rows(int(facets_.size()), [&](int first, int end) {
             for (int i = first; i < end; ++i) of_facets_.still[i] = again && !changed(posed, facets_[i]);
             kernel_.set_up(scene, first, end);
         });
         if (rects.empty()) return;
-        const Visible visible{facets_, nodes_.nodes(), of_facets_.boxes, of_facets_.seen, scene.opening};
+        const Visible visible{facets_,         nodes_.nodes(), of_facets_.boxes,
+                              of_facets_.seen, scene.opening,  bounds_of(rects)};
         pool_.share(2, [&](int item, int) { item == 0 ? lists_.list(rects, visible) : fine_.find(visible); });
         pool_.share(int(lists_.stripes().size()), [&](int item, int thread) {
             const auto& [bounds, facets] = lists_.stripes()[item];

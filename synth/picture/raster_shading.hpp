@@ -9,7 +9,7 @@
 namespace viaface::raster::VIAFACE_KERNEL {
 namespace {
 
-constexpr std::uint32_t kOpaque = 255u << 24;
+constexpr std::int32_t kOpaque = std::int32_t(255u << 24);
 
 // Colours of a pixel's samples add up in 10 bits each.
 constexpr std::uint32_t kOneOfEach = 1 | 1 << 10 | 1 << 20;
@@ -18,7 +18,7 @@ VIAFACE_INLINE std::uint32_t spread(std::uint32_t rgba) {
 }
 VIAFACE_INLINE std::uint32_t mean_of_samples(std::uint32_t sum) {
     sum += kSamples / 2 * kOneOfEach;
-    return (sum >> 2 & 255) | (sum >> 12 & 255) << 8 | (sum >> 22 & 255) << 16 | kOpaque;
+    return (sum >> 2 & 255) | (sum >> 12 & 255) << 8 | (sum >> 22 & 255) << 16 | std::uint32_t(kOpaque);
 }
 static_assert(kSamples == 4);
 
@@ -100,24 +100,44 @@ class Shading {
         queue.fill_up();
         const Lit lit = light(scene_, queue.facet, load<WideInt>(queue.x), load<WideInt>(queue.y));
         const Three c = shaded<shade>(lit);
-        std::uint32_t colours[kAtOnce];
-        store(colours, byte(filmic(c.x)) | byte(filmic(c.y)) << 8 | byte(filmic(c.z)) << 16);
-        float covers[kAtOnce];
-        if constexpr (shade == Shade::kLash) store(covers, lit.cover);
-        for (int i = 0; i < smaller(queue.count, kAtOnce); ++i) {
-            const std::int32_t at = queue.at[i], samples = queue.samples[i];
-            if constexpr (shade == Shade::kLash)
-                lay_over(scene_.rgba[at], colours[i], covers[i] * float(samples) * (1.0f / kSamples));
-            else if (samples == kSamples)
-                scene_.rgba[at] = colours[i] | kOpaque;
-            else
-                sum(at) += std::uint32_t(samples) * spread(colours[i]);
-        }
+        const WideInt colour = byte(filmic(c.x)) | byte(filmic(c.y)) << 8 | byte(filmic(c.z)) << 16;
+        const int count = smaller(queue.count, kAtOnce);
+        if constexpr (shade == Shade::kLash)
+            lay_over(queue, count, colour, lit.cover);
+        else
+            write(queue, count, colour);
         queue.drop_some();
     }
 
+    VIAFACE_INLINE void write(const Queue& queue, int count, WideInt colour) const {
+        std::int32_t colours[kAtOnce];
+        store(colours, colour | kOpaque);
+        const WideInt part = load<WideInt>(queue.samples) != kSamples;
+        if (count == kAtOnce && negative_lanes(part) == 0) {
+            for (int i = 0; i < kAtOnce; ++i) scene_.rgba[queue.at[i]] = std::uint32_t(colours[i]);
+            return;
+        }
+        for (int i = 0; i < count; ++i) {
+            const std::int32_t at = queue.at[i], samples = queue.samples[i];
+            if (samples == kSamples)
+                scene_.rgba[at] = std::uint32_t(colours[i]);
+            else
+                sum(at) += std::uint32_t(samples) * spread(std::uint32_t(colours[i]));
+        }
+    }
+
+    VIAFACE_INLINE void lay_over(const Queue& queue, int count, WideInt colour, Wide cover) const {
+        std::uint32_t colours[kAtOnce];
+        float covers[kAtOnce];
+        store(colours, colour);
+        store(covers, cover);
+        for (int i = 0; i < count; ++i)
+            lay_over(scene_.rgba[queue.at[i]], colours[i],
+                     covers[i] * float(queue.samples[i]) * (1.0f / kSamples));
+    }
+
     static VIAFACE_INLINE void lay_over(std::uint32_t& to, std::uint32_t colour, float share) {
-        std::uint32_t mixed = kOpaque;
+        std::uint32_t mixed = std::uint32_t(kOpaque);
         for (int shift = 0; shift < 24; shift += 8) {
             const float under = float(to >> shift & 255), over = float(colour >> shift & 255);
             mixed |= std::uint32_t(under + share * (over - under) + 0.5f) << shift;

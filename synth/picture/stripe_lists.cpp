@@ -7,12 +7,11 @@ namespace viaface {
 using raster::Bounds;
 
 Bounds box_of(const Visible& visible, int facet) {
-    const Bounds& box = visible.boxes[facet];
+    const Bounds box = raster::common(visible.boxes[facet], visible.drawn);
     return visible.facets[facet].inside ? raster::common(box, visible.opening) : box;
 }
 
-StripeLists::StripeLists(int height)
-    : height_(height), rows_((height + raster::kStripeRows - 1) / raster::kStripeRows) {}
+StripeLists::StripeLists(int height) : rows_((height + raster::kStripeRows - 1) / raster::kStripeRows) {}
 
 void StripeLists::list(std::span<const Rect> rects, const Visible& visible) {
     count_ = 0;
@@ -38,9 +37,8 @@ void StripeLists::list_facets(const Visible& visible) {
     for (int i = 0; i < int(visible.facets.size()); ++i) {
         if (!visible.seen[i]) continue;
         const Bounds box = box_of(visible, i);
-        const int first = std::max(0, box.bottom) / raster::kStripeRows;
-        const int last = std::min(height_, box.top) - 1;
-        for (int row = first; row * raster::kStripeRows <= last; ++row) {
+        if (box.left >= box.right) continue;
+        for (int row = box.bottom / raster::kStripeRows; row * raster::kStripeRows < box.top; ++row) {
             for (const int stripe : rows_[row]) {
                 const Bounds& within = stripes_[stripe].bounds;
                 if (box.left < within.right && box.right > within.left)

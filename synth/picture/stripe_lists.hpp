@@ -21,9 +21,10 @@ struct Visible {
     std::span<const raster::Bounds> boxes;  // of each facet
     std::span<const std::uint8_t> seen;     // of each facet
     raster::Bounds opening;                 // what is inside the mouth shows nowhere else
+    raster::Bounds drawn;                   // holds all that is drawn again
 };
 
-// Where a facet may show.
+// Where a facet may show among what is drawn; empty where it does not.
 raster::Bounds box_of(const Visible& visible, int facet);
 
 class StripeLists {
@@ -37,7 +38,6 @@ class StripeLists {
     void cut(const Rect& rect);
     void list_facets(const Visible& visible);
 
-    int height_;
     std::vector<StripeList> stripes_;  // the first count_ are in use
     std::size_t count_ = 0;
     std::vector<std::vector<int>> rows_;  // the stripes of each row of stripes

@@ -49,7 +49,7 @@ struct Sheet {
         FinePixels pixels(facets, weld, kWidth, kHeight);
         std::vector<raster::Bounds> boxes;
         for (const raster::Facet& facet : facets) boxes.push_back(box_of(facet));
-        pixels.find({facets, nodes, boxes, seen, opening});
+        pixels.find({facets, nodes, boxes, seen, opening, {0, 0, kWidth, kHeight}});
         return pixels.bits()[std::size_t(y) * pixels.words() + x / 64] >> (x % 64) & 1;
     }
 };
