@@ -41,6 +41,11 @@ void ChangedBands::mark(const Extent& extent) {
     }
 }
 
+void ChangedBands::take_from(ChangedBands& other) {
+    for (std::size_t i = 0; i < marked_.size(); ++i) marked_[i] |= other.marked_[i];
+    std::ranges::fill(other.marked_, 0);
+}
+
 std::vector<ChangedBands::Run> ChangedBands::runs_of(int row) const {
     std::vector<Run> runs;
     for (int column = 0; column < columns_; ++column) {

@@ -46,6 +46,8 @@ class ChangedBands {
     ChangedBands(int width, int height);
 
     void mark(const Extent& extent);
+    // What is marked in `other`, of the same size, which then has nothing marked.
+    void take_from(ChangedBands& other);
     // Rectangles that hold everything marked, apart from each other; then nothing is marked.
     std::vector<Rect> take();
 

@@ -30,6 +30,14 @@ std::unique_ptr<Painter> make_painter(const Face& face, const View& view, const 
     return make_raster_painter(face, view, drawing.instructions, pool);
 }
 
+std::vector<Triangle> outside_mouth(const Face& face) {
+    std::vector<Triangle> outside;
+    for (const auto& [material, triangles] : layers_of(face)) {
+        if (!inside_mouth(material)) outside.insert(outside.end(), triangles.begin(), triangles.end());
+    }
+    return outside;
+}
+
 std::vector<int> eye_nodes(const Face& face) {
     std::vector<int> nodes;
     for (const FacePart& part : face.parts) {
@@ -52,8 +60,8 @@ class Portrait::Impl {
           pool_(std::make_unique<WorkPool>(std::max(1, drawing.threads))),
           painter_(make_painter(face, view, drawing, *pool_)),
           posed_(face, view),
-          bands_(view.width, view.height),
-          layers_(layers_of(face)),
+          bands_(pool_->threads(), ChangedBands(view.width, view.height)),
+          outside_mouth_(outside_mouth(face)),
           eyes_(view.eyes_occluded && seen_from_front(view) ? eye_nodes(face) : std::vector<int>()),
           rgba_(std::size_t(4) * view.width * view.height) {}
 
@@ -82,18 +90,19 @@ class Portrait::Impl {
     }
 
     std::vector<Rect> changed() {
-        for (const Layer& layer : layers_) {
-            if (inside_mouth(layer.material)) continue;
-            for (const Triangle& t : layer.triangles) {
-                if (moved(t)) bands_.mark(swept(t));
+        const int parts = int(bands_.size()), outside = int(outside_mouth_.size());
+        pool_->share(parts, [&](int part, int) {
+            for (int i = part * outside / parts; i < (part + 1) * outside / parts; ++i) {
+                if (moved(outside_mouth_[i])) bands_[part].mark(swept(outside_mouth_[i]));
             }
-        }
+        });
+        for (int part = 1; part < parts; ++part) bands_[0].take_from(bands_[part]);
         const Extent opening = posed_.mouth().swept_opening();
         for (const Triangle& t : posed_.mouth().triangles()) {
-            if (moved(t)) bands_.mark(within(swept(t), opening));
+            if (moved(t)) bands_[0].mark(within(swept(t), opening));
         }
-        if (posed_.mouth().opening_changed()) bands_.mark(opening);
-        return bands_.take();
+        if (posed_.mouth().opening_changed()) bands_[0].mark(opening);
+        return bands_[0].take();
     }
 
     bool moved(const Triangle& t) const {
@@ -110,8 +119,8 @@ class Portrait::Impl {
     std::unique_ptr<WorkPool> pool_;
     std::unique_ptr<Painter> painter_;
     PosedVertices posed_;
-    ChangedBands bands_;
-    std::vector<Layer> layers_;
+    std::vector<ChangedBands> bands_;  // of each thread
+    std::vector<Triangle> outside_mouth_;
     std::vector<int> eyes_;  // nodes under the bar; none without one
     std::vector<std::uint8_t> occluded_;
     std::vector<std::uint8_t> rgba_;

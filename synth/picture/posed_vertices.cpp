@@ -12,8 +12,10 @@
 namespace viaface {
 namespace {
 
+// To the nearest grain: beyond 2^52 doubles have no fractions, which rounds on the way there and back.
 float grained(double mm) {
-    return static_cast<float>(std::nearbyint(mm / Portrait::kGrain) * Portrait::kGrain);
+    constexpr double kWhole = 1.5 * (std::int64_t{1} << 52);
+    return static_cast<float>((mm / Portrait::kGrain + kWhole - kWhole) * Portrait::kGrain);
 }
 
 // Pixels far outside stay numbers that an int can hold.

@@ -42,9 +42,11 @@ class StripeDrawing {
     }
     // A bit for each of the fine ones among 32 pixels.
     VIAFACE_INLINE std::uint32_t fine(std::int32_t x, std::int32_t y) const {
-        const std::uint64_t* word = scene_.fine + std::int64_t(y) * scene_.fine_words + (x >> 6);
-        const int shift = x & 63;
-        return std::uint32_t(shift <= 32 ? word[0] >> shift : word[0] >> shift | word[1] << (64 - shift));
+        static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+        const auto* const row = reinterpret_cast<const std::uint8_t*>(scene_.fine + y * scene_.fine_words);
+        std::uint64_t bits;
+        __builtin_memcpy(&bits, row + (x >> 3), sizeof bits);
+        return std::uint32_t(bits >> (x & 7));
     }
 
     VIAFACE_INLINE bool any_fine(const Bounds& box) const {

@@ -120,7 +120,7 @@ struct Scene {
     std::uint32_t* alone;       // of each pixel: 1 + the facet that is all there was when it was drawn, or 0
     const std::uint8_t* still;  // of each facet: 1 where it is as it was when the picture was drawn
     const std::uint64_t* fine;  // [height x fine_words], a bit for each pixel
-    std::int32_t fine_words;    // of a row
+    std::int64_t fine_words;    // of a row, the last of which is over
     std::int32_t width;         // of the picture, pixels
     float to_camera[3][3];      // world: at pixel (0, 0), per pixel to the right, per pixel up; any length
     float fold, step;           // surfaces part where slopes differ by `fold` or heights by `step`, both as a

@@ -18,6 +18,8 @@ void StripeLists::list(std::span<const Rect> rects, const Visible& visible) {
     for (std::vector<int>& row : rows_) row.clear();
     for (const Rect& rect : rects) cut(rect);
     list_facets(visible);
+    std::sort(stripes_.begin(), stripes_.begin() + std::ptrdiff_t(count_),
+              [](const StripeList& a, const StripeList& b) { return a.facets.size() > b.facets.size(); });
 }
 
 void StripeLists::cut(const Rect& rect) {

@@ -32,6 +32,7 @@ class StripeLists {
     explicit StripeLists(int height);  // of the picture, pixels
 
     void list(std::span<const Rect> rects, const Visible& visible);
+    // Those of most facets first, so that threads that take them one by one end together.
     std::span<const StripeList> stripes() const { return {stripes_.data(), count_}; }
 
   private:

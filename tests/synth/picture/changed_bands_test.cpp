@@ -44,6 +44,15 @@ TEST(ChangedBands, HoldsWhatIsMarkedOnce) {
     EXPECT_TRUE(bands.take().empty());
 }
 
+TEST(ChangedBands, TakesOverWhatAnotherHolds) {
+    ChangedBands bands(200, 200), other(200, 200);
+    bands.mark(extent(10, 20, 10, 20));
+    other.mark(extent(100, 120, 150, 160));
+    bands.take_from(other);
+    EXPECT_EQ(bands.take().size(), 2u);
+    EXPECT_TRUE(other.take().empty());
+}
+
 TEST(ChangedBands, StaysInsideThePicture) {
     ChangedBands bands(100, 50);
     bands.mark(extent(-500, 500, -500, 500));
