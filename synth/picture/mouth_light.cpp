@@ -32,8 +32,8 @@ Opening opening_of(const LipGrid& lips, const NodesF& places) {
     return corners;
 }
 
-constexpr int kAtOnce = 4;     // points
-constexpr int kInOneGo = 256;  // points, a multiple of kAtOnce
+constexpr int kAtOnce = 4;    // points
+constexpr int kInOneGo = 64;  // points, a multiple of kAtOnce
 using Numbers = Eigen::Array<float, kAtOnce, 1>;
 struct Vectors {
     Numbers x, y, z;

@@ -1,6 +1,7 @@
 #include "synth/picture/surface_frame.hpp"
 
 #include <Eigen/Geometry>
+#include <set>
 
 namespace viaface {
 namespace {
@@ -33,6 +34,11 @@ NodeNormals::NodeNormals(const Face& face) {
         first_adjoining_.push_back(int(adjoining_.size()));
         adjoining_.insert(adjoining_.end(), adjoining[first].begin(), adjoining[first].end());
         end_adjoining_.push_back(int(adjoining_.size()));
+        std::set<int> corners;
+        for (const int i : adjoining[first]) corners.insert(triangles_[i].begin(), triangles_[i].end());
+        first_corner_.push_back(int(corners_.size()));
+        corners_.insert(corners_.end(), corners.begin(), corners.end());
+        end_corner_.push_back(int(corners_.size()));
     }
 }
 
@@ -53,9 +59,8 @@ RowVector3f NodeNormals::at(int node, const NodesF& places) const {
 }
 
 bool NodeNormals::adjoins(int node, std::span<const std::uint8_t> moved) const {
-    for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) {
-        const auto& [a, b, c] = triangles_[adjoining_[i]];
-        if ((moved[a] | moved[b] | moved[c]) != 0) return true;
+    for (int i = first_corner_[node]; i < end_corner_[node]; ++i) {
+        if (moved[corners_[i]] != 0) return true;
     }
     return false;
 }

@@ -17,13 +17,15 @@ class NodeNormals {
     explicit NodeNormals(const Face& face);
     void compute(const NodesF& places, NodesF& normals) const;
     Eigen::RowVector3f at(int node, const NodesF& places) const;  // unit length; (0, 0, 1) where undefined
-    // Whether a triangle that adjoins the node has a corner that is 1 in `moved`, [nodes].
+    // Whether a corner of the triangles that adjoin the node is 1 in `moved`, [nodes].
     bool adjoins(int node, std::span<const std::uint8_t> moved) const;
 
   private:
     std::vector<Triangle> triangles_;                   // of welded nodes
     std::vector<int> adjoining_;                        // triangles, node after node
     std::vector<int> first_adjoining_, end_adjoining_;  // of each node
+    std::vector<int> corners_;                    // of the adjoining triangles, each once, node after node
+    std::vector<int> first_corner_, end_corner_;  // of each node
 };
 
 // [nodes x 4]: unit direction of rising u at rest, and in column 4 the sign that makes

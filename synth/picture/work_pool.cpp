@@ -5,7 +5,7 @@
 namespace viaface {
 namespace {
 
-constexpr int kRowsAtOnce = 2048;
+constexpr int kRowsAtOnce = 512;
 constexpr int kLooks = 100;  // before sleep, some tens of microseconds
 
 template <class Ready>

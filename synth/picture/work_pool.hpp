@@ -24,7 +24,7 @@ class WorkPool {
     int threads() const { return static_cast<int>(workers_.size()) + 1; }
     // Does items 0 to `items` - 1, each once; returns when all are done.
     void share(int items, const Work& work);
-    // Does rows 0 to `rows` - 1, each once, some thousand at a time.
+    // Does rows 0 to `rows` - 1, each once, some hundred at a time.
     void share_rows(int rows, const Rows& work);
 
   private:
