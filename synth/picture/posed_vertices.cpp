@@ -13,9 +13,15 @@ namespace viaface {
 namespace {
 
 // To the nearest grain: beyond 2^52 doubles have no fractions, which rounds on the way there and back.
-float grained(double mm) {
+Eigen::RowVector3f grained(const Eigen::RowVector3d& mm) {
     constexpr double kWhole = 1.5 * (std::int64_t{1} << 52);
-    return static_cast<float>((mm / Portrait::kGrain + kWhole - kWhole) * Portrait::kGrain);
+    return (((mm.array() / Portrait::kGrain + kWhole) - kWhole) * Portrait::kGrain).cast<float>();
+}
+
+NodesF grained_rest(const Face& face) {
+    NodesF places(face.rest.rows(), 3);
+    for (Eigen::Index i = 0; i < places.rows(); ++i) places.row(i) = grained(face.rest.row(i));
+    return places;
 }
 
 // Pixels far outside stay numbers that an int can hold.
@@ -39,7 +45,8 @@ PosedVertices::PosedVertices(const Face& face, const View& view)
       mouth_light_(face),
       clip_from_head_(clip_from_head(view)),
       half_picture_(0.5f * view.width, 0.5f * view.height),
-      places_(face.rest.cast<float>()),
+      standing_(grained_rest(face)),
+      places_(standing_),
       moved_(face.rest.rows()),
       turned_(face.rest.rows()),
       light_(face.rest.rows(), 1.0f),
@@ -67,7 +74,8 @@ Eigen::Vector2f PosedVertices::in_picture(int node) const {
 void PosedVertices::place(const Nodes& posed, int node) {
     const Eigen::RowVector3d way = posed.row(node) - rest_.row(node);
     const double share = drawn_share(way.squaredNorm(), least_ways_[node]);
-    const Eigen::RowVector3f at = (rest_.row(node) + share * way).unaryExpr(&grained);
+    const Eigen::RowVector3f at =
+        share > 0 ? grained(rest_.row(node) + share * way) : Eigen::RowVector3f(standing_.row(node));
     moved_[node] = at != places_.row(node);
     swept_[node] = Extent::of(pixels_[node]);
     if (moved_[node] == 0) return;

@@ -47,7 +47,7 @@ class PosedVertices {
     MouthLight mouth_light_;
     Eigen::Matrix4f clip_from_head_;
     Eigen::Vector2f half_picture_;
-    NodesF places_;
+    NodesF standing_, places_;
     std::vector<std::uint8_t> moved_;   // of each node: 1 where its place is another than in the pose before
     std::vector<std::uint8_t> turned_;  // of each node: 1 where its normal was worked out again
     NodesF normals_;

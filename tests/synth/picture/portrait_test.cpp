@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <thread>
 
+#include "momo_face.hpp"
 #include "simple_faces.hpp"
 
 namespace viaface {
@@ -16,6 +18,7 @@ using testing::add_square;
 using testing::bytes;
 using testing::kMiddleY;
 using testing::kMiddleZ;
+using testing::momo;
 using testing::two_balls;
 using testing::wandering;
 
@@ -101,6 +104,20 @@ TEST(Portrait, DrawingWhatChangedEqualsDrawingAll) {
             const auto alone = bytes(Portrait(face, view).draw(posed));
             ASSERT_EQ(bytes(changed.draw(posed)), alone) << step;
             ASSERT_EQ(bytes(all.draw(posed, Portrait::Redraw::kAll)), alone) << step;
+        }
+    }
+}
+
+// Teeth and tongue come and go behind the lips, and come back to where they were.
+TEST(Portrait, AMouthThatOpensAndShutsEqualsItselfDrawnWhole) {
+    const auto opens = std::ranges::find(momo().shapes, "jawOpen", &NamedShape::name);
+    ASSERT_NE(opens, momo().shapes.end());
+    for (const View& view :
+         {View{.width = 160, .height = 160}, View{.width = 160, .height = 120, .yaw = 40}}) {
+        Portrait changed(momo(), view);
+        for (const double amount : {0.0, 0.3, 0.32, 0.05, 0.0, 0.0, 0.3, 0.8, 0.05}) {
+            const Nodes posed = momo().rest + amount * opens->delta;
+            ASSERT_EQ(bytes(changed.draw(posed)), bytes(Portrait(momo(), view).draw(posed))) << amount;
         }
     }
 }
