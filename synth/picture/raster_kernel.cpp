@@ -40,6 +40,7 @@ class StripeDrawing {
     VIAFACE_INLINE std::int32_t middle_of(std::int32_t x, std::int32_t y) const {
         return (y - bounds_.bottom) * (scene_.width + kPixelsBeyond) + x - bounds_.left;
     }
+
     // A bit for each of the fine ones among 32 pixels.
     VIAFACE_INLINE std::uint32_t fine(std::int32_t x, std::int32_t y) const {
         static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
