@@ -181,29 +181,27 @@ VIAFACE_INLINE WideInt packed(WideInt v, unsigned lanes) {
 #endif
 }
 
-// Eight rows of four become four columns of eight, and back.
-VIAFACE_INLINE void turn(const Four (&rows)[8], Wide (&columns)[4]) {
-    Wide r[4];
-    for (int i = 0; i < 4; ++i) r[i] = joined(rows[i], rows[i + 4]);
+// Rows become columns in the lower four lanes and in the upper four.
+VIAFACE_INLINE void transpose_halves(Wide (&r)[4]) {
     const Wide a = __builtin_shufflevector(r[0], r[1], 0, 8, 1, 9, 4, 12, 5, 13),
                b = __builtin_shufflevector(r[2], r[3], 0, 8, 1, 9, 4, 12, 5, 13),
                c = __builtin_shufflevector(r[0], r[1], 2, 10, 3, 11, 6, 14, 7, 15),
                d = __builtin_shufflevector(r[2], r[3], 2, 10, 3, 11, 6, 14, 7, 15);
-    columns[0] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-    columns[1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-    columns[2] = __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13);
-    columns[3] = __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15);
+    r[0] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+    r[1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+    r[2] = __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13);
+    r[3] = __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+// Eight rows of four become four columns of eight, and back.
+VIAFACE_INLINE void turn(const Four (&rows)[8], Wide (&columns)[4]) {
+    for (int i = 0; i < 4; ++i) columns[i] = joined(rows[i], rows[i + 4]);
+    transpose_halves(columns);
 }
 
 VIAFACE_INLINE void turn(const Wide (&columns)[4], Four (&rows)[8]) {
-    const Wide a = __builtin_shufflevector(columns[0], columns[1], 0, 8, 1, 9, 4, 12, 5, 13),
-               b = __builtin_shufflevector(columns[2], columns[3], 0, 8, 1, 9, 4, 12, 5, 13),
-               c = __builtin_shufflevector(columns[0], columns[1], 2, 10, 3, 11, 6, 14, 7, 15),
-               d = __builtin_shufflevector(columns[2], columns[3], 2, 10, 3, 11, 6, 14, 7, 15);
-    const Wide r[4] = {__builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13),
-                       __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15),
-                       __builtin_shufflevector(c, d, 0, 1, 8, 9, 4, 5, 12, 13),
-                       __builtin_shufflevector(c, d, 2, 3, 10, 11, 6, 7, 14, 15)};
+    Wide r[4] = {columns[0], columns[1], columns[2], columns[3]};
+    transpose_halves(r);
     for (int i = 0; i < 4; ++i) {
         rows[i] = __builtin_shufflevector(r[i], r[i], 0, 1, 2, 3);
         rows[i + 4] = __builtin_shufflevector(r[i], r[i], 4, 5, 6, 7);
