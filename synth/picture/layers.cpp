@@ -1,5 +1,7 @@
 #include "synth/picture/layers.hpp"
 
+#include <algorithm>
+
 namespace viaface {
 namespace {
 
@@ -22,6 +24,14 @@ std::vector<Triangle> triangles_of(const Face& face, Material material) {
         triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
     }
     return triangles;
+}
+
+std::vector<int> nodes_of(std::span<const Triangle> triangles) {
+    std::vector<int> nodes;
+    for (const Triangle& triangle : triangles) nodes.insert(nodes.end(), triangle.begin(), triangle.end());
+    std::ranges::sort(nodes);
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
 }
 
 bool inside_mouth(Material m) { return m >= Material::kMouth && m <= Material::kTongue; }

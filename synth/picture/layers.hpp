@@ -1,6 +1,7 @@
 // A face in the order in which it is drawn, one layer per material.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "facemodel/face.hpp"
@@ -16,6 +17,9 @@ struct Layer {
 std::vector<Layer> layers_of(const Face& face);
 
 std::vector<Triangle> triangles_of(const Face& face, Material material);
+
+// Their corners, each once, in rising order.
+std::vector<int> nodes_of(std::span<const Triangle> triangles);
 
 // Seen through the opening of the mouth alone.
 bool inside_mouth(Material material);

@@ -24,8 +24,8 @@ MouthView::MouthView(const Face& face, int width, int height)
     for (const FacePart& part : face.parts) {
         if (!inside_mouth(part.material)) continue;
         inside_.insert(inside_.end(), part.triangles.begin(), part.triangles.end());
-        for (int i = 0; i < part.nodes; ++i) inside_nodes_.push_back(part.first_node + i);
     }
+    inside_nodes_ = nodes_of(inside_);
 }
 
 void MouthView::look(std::span<const Eigen::Vector2f> pixels, std::span<const Extent> swept) {

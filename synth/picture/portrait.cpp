@@ -5,6 +5,7 @@
 
 #include "synth/picture/changed_bands.hpp"
 #include "synth/picture/layers.hpp"
+#include "synth/picture/level_of_detail.hpp"
 #include "synth/picture/painter.hpp"
 #include "synth/picture/shown_face.hpp"
 
@@ -15,8 +16,10 @@ void check(const Face& face) {
     const Eigen::Index nodes = face.rest.rows();
     bool fits = face.uvs.rows() == nodes && Eigen::Index(face.weld.size()) == nodes;
     for (const FacePart& part : face.parts) {
+        const int end = part.first_node + part.nodes;
+        fits &= part.first_node >= 0 && end <= nodes;
         for (const Triangle& t : part.triangles) {
-            fits &= std::ranges::all_of(t, [&](int node) { return node >= 0 && node < nodes; });
+            fits &= std::ranges::all_of(t, [&](int node) { return node >= part.first_node && node < end; });
         }
     }
     for (const int node : face.weld) fits &= node >= 0 && node < nodes;
@@ -38,31 +41,32 @@ std::vector<Triangle> outside_mouth(const Face& face) {
     return outside;
 }
 
-std::vector<int> eye_nodes(const Face& face) {
-    std::vector<int> nodes;
-    for (const FacePart& part : face.parts) {
-        if (part.material != Material::kEye) continue;
-        for (int i = 0; i < part.nodes; ++i) nodes.push_back(part.first_node + i);
-    }
-    return nodes;
+// In the detail that shows; all of it where the mesh itself is looked at.
+Face in_detail(const Face& face, const View& view, WorkPool& pool) {
+    Face seen = face;
+    if (view.shown != Shown::kWireframe)
+        seen.parts = coarser_parts(face, coarseness_for(pixel_size(view)), pool);
+    return seen;
 }
 
 }  // namespace
 
 class Portrait::Impl {
   public:
-    Impl(const CutFace& shown, const View& view, const Drawing& drawing) : Impl(shown.face, view, drawing) {
+    Impl(const CutFace& shown, const View& view, const Drawing& drawing, std::unique_ptr<WorkPool> pool)
+        : Impl(shown.face, view, drawing, std::move(pool)) {
         cut_ = shown.nodes;
     }
 
-    Impl(const Face& face, const View& view, const Drawing& drawing)
+    Impl(const Face& face, const View& view, const Drawing& drawing, std::unique_ptr<WorkPool> pool)
         : view_(view),
-          pool_(std::make_unique<WorkPool>(std::max(1, drawing.threads))),
+          pool_(std::move(pool)),
           painter_(make_painter(face, view, drawing, *pool_)),
           posed_(face, view),
           bands_(pool_->threads(), ChangedBands(view.width, view.height)),
           outside_mouth_(outside_mouth(face)),
-          eyes_(view.eyes_occluded && seen_from_front(view) ? eye_nodes(face) : std::vector<int>()),
+          eyes_(view.eyes_occluded && seen_from_front(view) ? nodes_of(triangles_of(face, Material::kEye))
+                                                            : std::vector<int>()),
           rgba_(std::size_t(4) * view.width * view.height) {}
 
     FrameView draw(const Nodes& posed, Redraw redraw) {
@@ -130,8 +134,10 @@ class Portrait::Impl {
 Portrait::Portrait(const Face& face, const View& view, const Drawing& drawing) {
     check(view);
     check(face);
-    impl_ = shows_all(view) ? std::make_unique<Impl>(face, view, drawing)
-                            : std::make_unique<Impl>(shown_face(face, view), view, drawing);
+    auto pool = std::make_unique<WorkPool>(std::max(1, drawing.threads));
+    const Face seen = in_detail(face, view, *pool);
+    impl_ = shows_all(view) ? std::make_unique<Impl>(seen, view, drawing, std::move(pool))
+                            : std::make_unique<Impl>(shown_face(seen, view), view, drawing, std::move(pool));
 }
 Portrait::~Portrait() = default;
 Portrait::Portrait(Portrait&&) noexcept = default;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "synth/picture/key_shadow.hpp"
+#include "synth/picture/layers.hpp"
 #include "synth/picture/least_ways.hpp"
 #include "synth/picture/portrait.hpp"
 
@@ -24,6 +25,13 @@ NodesF grained_rest(const Face& face) {
     return places;
 }
 
+std::vector<int> drawn_nodes(const Face& face) {
+    std::vector<Triangle> all;
+    for (const FacePart& part : face.parts)
+        all.insert(all.end(), part.triangles.begin(), part.triangles.end());
+    return nodes_of(all);
+}
+
 // Pixels far outside stay numbers that an int can hold.
 float within_reach(float pixel) {
     constexpr float kFar = 1e6f;
@@ -38,7 +46,8 @@ Eigen::Matrix4f clip_from_head(const View& view) {
 }  // namespace
 
 PosedVertices::PosedVertices(const Face& face, const View& view)
-    : rest_(face.rest),
+    : nodes_(drawn_nodes(face)),
+      rest_(face.rest),
       least_ways_(least_ways(face, pixel_size(view))),
       node_normals_(face),
       mouth_(face, view.width, view.height),
@@ -108,8 +117,8 @@ void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
     }
     if (!posed.allFinite()) throw std::invalid_argument("a pose with places that are not finite");
     const auto for_nodes = [&](const auto& work) {
-        pool.share_rows(int(posed.rows()), [&](int first, int end) {
-            for (int node = first; node < end; ++node) work(node);
+        pool.share_rows(int(nodes_.size()), [&](int first, int end) {
+            for (int i = first; i < end; ++i) work(nodes_[i]);
         });
     };
     for_nodes([&](int node) { place(posed, node); });

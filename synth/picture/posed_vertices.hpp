@@ -40,6 +40,7 @@ class PosedVertices {
     void finish(int node);
     Eigen::Vector2f in_picture(int node) const;
 
+    std::vector<int> nodes_;  // that are corners of triangles: all others stay as they are
     Nodes rest_;
     Eigen::VectorXd least_ways_;  // mm
     NodeNormals node_normals_;
