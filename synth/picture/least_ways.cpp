@@ -67,8 +67,4 @@ Eigen::VectorXd least_ways(const Face& face, double pixel) {
     return pixel * (kLeastWay + (kLeastWayFarOff - kLeastWay) * far_off.array());
 }
 
-double drawn_share(double squared_way, double least) {
-    return squared_way > least * least ? 1 - least * least / squared_way : 0;
-}
-
 }  // namespace viaface

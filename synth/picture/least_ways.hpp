@@ -15,6 +15,8 @@ Eigen::VectorXd least_ways(const Face& face, double pixel);
 
 // The share of a node's way that is drawn: none up to the least one, then 1 - (least / way)^2, so that what
 // goes far goes all of it: a way of ten least ones is drawn within a hundredth.
-double drawn_share(double squared_way, double least);
+inline double drawn_share(double squared_way, double least) {
+    return squared_way > least * least ? 1 - least * least / squared_way : 0;
+}
 
 }  // namespace viaface

@@ -19,7 +19,7 @@ constexpr int kFirstDarkRow = 9;     // rows of the lips from here inwards darke
 constexpr float kDarkest = 0.75f;    // light lost at the inner contour of closed lips
 constexpr float kFromAround = 0.5f;  // share of the light that comes from everywhere
 
-float in_steps(float light) { return std::round(std::clamp(light, 0.0f, 1.0f) * 255) / 255; }
+float in_steps(float light) { return float(int(std::clamp(light, 0.0f, 1.0f) * 255 + 0.5f)) / 255; }
 
 // The column of the other lip that meets this one.
 int opposite(int column) { return (LipGrid::kColumns * 3 / 2 - column) % LipGrid::kColumns; }

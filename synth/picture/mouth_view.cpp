@@ -12,6 +12,14 @@ std::vector<int> inner_contour(const Face& face) {
     return nodes;
 }
 
+// False if it is turned away by more than the rounding of its corners could turn it.
+bool faces_camera(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
+    constexpr float kRounding = 1.0f / 64;  // pixels
+    const Eigen::Vector2f to_b = b - a, to_c = c - a;
+    const float reach = to_b.lpNorm<1>() + to_c.lpNorm<1>();
+    return to_b.x() * to_c.y() - to_c.x() * to_b.y() > -kRounding * (reach + kRounding);
+}
+
 }  // namespace
 
 MouthView::MouthView(const Face& face, int width, int height)
@@ -21,11 +29,13 @@ MouthView::MouthView(const Face& face, int width, int height)
       inner_contour_(inner_contour(face)),
       shown_(face.rest.rows(), 1),
       kept_shown_(face.rest.rows(), 1) {
-    for (const FacePart& part : face.parts) {
-        if (!inside_mouth(part.material)) continue;
-        inside_.insert(inside_.end(), part.triangles.begin(), part.triangles.end());
+    std::vector<Triangle> all;
+    for (const auto& [material, triangles] : layers_of(face)) {
+        if (!inside_mouth(material)) continue;
+        all.insert(all.end(), triangles.begin(), triangles.end());
+        for (const Triangle& t : triangles) inside_.push_back({t, two_sided(material), true});
     }
-    inside_nodes_ = nodes_of(inside_);
+    inside_nodes_ = nodes_of(all);
 }
 
 void MouthView::look(std::span<const Eigen::Vector2f> pixels, std::span<const Extent> swept) {
@@ -36,8 +46,12 @@ void MouthView::look(std::span<const Eigen::Vector2f> pixels, std::span<const Ex
     triangles_.clear();
     nodes_.clear();
     const Extent through = swept_opening();
-    for (const Triangle& t : inside_) {
-        if (touch(extent_of(swept[t[0]], swept[t[1]], swept[t[2]]), through)) show(t);
+    for (auto& [t, two_sided, faced] : inside_) {
+        const bool faces = two_sided || faces_camera(pixels[t[0]], pixels[t[1]], pixels[t[2]]);
+        const bool may_show =
+            (faces || faced) && touch(extent_of(swept[t[0]], swept[t[1]], swept[t[2]]), through);
+        if (may_show) show(t);
+        faced = faces;
     }
 }
 

@@ -34,11 +34,16 @@ class MouthView {
     bool uncovered(int node) const { return shown_[node] != 0 && kept_shown_[node] == 0; }
 
   private:
+    struct Inside {
+        Triangle corners;
+        bool two_sided, faced;  // faced the camera in the pose before
+    };
+
     void show(const Triangle& triangle);
 
     Rect whole_, opening_, kept_opening_;
     std::vector<int> inner_contour_;  // nodes; none without lips
-    std::vector<Triangle> inside_;    // all there are
+    std::vector<Inside> inside_;      // all there are
     std::vector<int> inside_nodes_;
     std::vector<Triangle> triangles_;
     std::vector<int> nodes_;

@@ -94,8 +94,8 @@ void PosedVertices::place(const Nodes& posed, int node) {
 }
 
 void PosedVertices::turn(int node) {
-    turned_[node] = !mouth_.hidden(node) && (mouth_.uncovered(node) || node_normals_.adjoins(node, moved_));
-    if (turned_[node] != 0) normals_.row(node) = node_normals_.at(node, places_);
+    turned_[node] = !mouth_.hidden(node) && (mouth_.uncovered(node) || node_normals_.turned(node));
+    if (turned_[node] != 0) normals_.row(node) = node_normals_.of(node);
 }
 
 void PosedVertices::finish(int node) {
@@ -123,6 +123,9 @@ void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
     };
     for_nodes([&](int node) { place(posed, node); });
     mouth_.look(pixels_, swept_);
+    pool.share_rows(node_normals_.triangles(), [&](int first, int end) {
+        for (int i = first; i < end; ++i) node_normals_.turn(i, places_, moved_);
+    });
     for_nodes([&](int node) { turn(node); });
     mouth_light_.compute(places_, normals_, mouth_.nodes(), pool, light_);
     for_nodes([&](int node) { finish(node); });

@@ -43,28 +43,35 @@ class StripeDrawing {
 
     // A bit for each of the fine ones among 32 pixels.
     VIAFACE_INLINE std::uint32_t fine(std::int32_t x, std::int32_t y) const {
+        return bits_at(scene_.fine + y * scene_.fine_words, x);
+    }
+    static VIAFACE_INLINE std::uint32_t bits_at(const std::uint64_t* row, std::int32_t x) {
         static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
-        const auto* const row = reinterpret_cast<const std::uint8_t*>(scene_.fine + y * scene_.fine_words);
         std::uint64_t bits;
-        __builtin_memcpy(&bits, row + (x >> 3), sizeof bits);
+        __builtin_memcpy(&bits, reinterpret_cast<const std::uint8_t*>(row) + (x >> 3), sizeof bits);
         return std::uint32_t(bits >> (x & 7));
     }
 
     VIAFACE_INLINE bool any_fine(const Bounds& box) const {
-        std::uint32_t any = 0;
         for (std::int32_t left = box.left; left < box.right; left += 32) {
             const std::uint32_t within = ~0u >> (32 - smaller(32, box.right - left));
-            for (std::int32_t y = box.bottom; y < box.top; ++y) any |= fine(left, y) & within;
+            if ((bits_at(fine_columns_, left) & within) == 0) continue;
+            for (std::int32_t y = box.bottom; y < box.top; ++y) {
+                if ((fine(left, y) & within) != 0) return true;
+            }
         }
-        return any != 0;
+        return false;
     }
 
     VIAFACE_INLINE void clear() {
         const std::size_t width = std::size_t(bounds_.right - bounds_.left);
+        for (std::int32_t i = 0; i < scene_.fine_words; ++i) fine_columns_[i] = 0;
         for (std::int32_t y = bounds_.bottom; y < bounds_.top; ++y) {
             const std::int32_t middles = middle_of(bounds_.left, y);
             __builtin_memset(scratch_.middles.nearness + middles, 0, width * 4);
             __builtin_memset(scratch_.middles.seen + middles, 0, width * 4);
+            for (std::int32_t i = 0; i < scene_.fine_words; ++i)
+                fine_columns_[i] |= scene_.fine[y * scene_.fine_words + i];
             for (std::int32_t x = bounds_.left; x < bounds_.right; x += 32) {
                 if (fine(x, y) != 0) clear_samples(x, y, smaller(32, bounds_.right - x) + 1);
             }
@@ -292,6 +299,7 @@ class StripeDrawing {
     const Bounds bounds_;
     Shading shading_;
     std::int32_t mixed_ = 0;
+    std::uint64_t fine_columns_[kMostFineWords];  // of all rows of the stripe
 };
 
 void set_up(const Scene& scene, int first, int end) {

@@ -23,7 +23,8 @@ inline constexpr int kSamples = 4;
 inline constexpr int kSteps = 128;   // per pixel: the grid on which corners lie, so that edges are exact
 inline constexpr int kGuard = 8192;  // pixels from the middle of the picture, either way
 inline constexpr int kLevels = 13;
-inline constexpr int kPixelsBeyond = 7;  // the last of eight pixels at a time may lie outside the picture
+inline constexpr int kMostFineWords = 65;  // of a row: 4096 pixels, and one that is over
+inline constexpr int kPixelsBeyond = 7;    // the last of eight pixels at a time may lie outside the picture
 
 struct Place {
     std::int32_t x, y;  // 1/kSteps pixel from the lower left corner

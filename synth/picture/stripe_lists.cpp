@@ -6,11 +6,6 @@ namespace viaface {
 
 using raster::Bounds;
 
-Bounds box_of(const Visible& visible, int facet) {
-    const Bounds box = raster::common(visible.boxes[facet], visible.drawn);
-    return visible.facets[facet].inside ? raster::common(box, visible.opening) : box;
-}
-
 StripeLists::StripeLists(int height) : rows_((height + raster::kStripeRows - 1) / raster::kStripeRows) {}
 
 void StripeLists::list(std::span<const Rect> rects, const Visible& visible) {

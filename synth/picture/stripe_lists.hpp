@@ -25,7 +25,10 @@ struct Visible {
 };
 
 // Where a facet may show among what is drawn; empty where it does not.
-raster::Bounds box_of(const Visible& visible, int facet);
+inline raster::Bounds box_of(const Visible& visible, int facet) {
+    const raster::Bounds box = raster::common(visible.boxes[facet], visible.drawn);
+    return visible.facets[facet].inside ? raster::common(box, visible.opening) : box;
+}
 
 class StripeLists {
   public:

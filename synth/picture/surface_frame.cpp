@@ -1,7 +1,6 @@
 #include "synth/picture/surface_frame.hpp"
 
 #include <Eigen/Geometry>
-#include <set>
 
 namespace viaface {
 namespace {
@@ -26,6 +25,8 @@ NodeNormals::NodeNormals(const Face& face) {
         for (const Triangle& t : part.triangles)
             triangles_.push_back({face.weld[t[0]], face.weld[t[1]], face.weld[t[2]]});
     }
+    doubled_areas_.resize(triangles_.size());
+    turned_.resize(triangles_.size());
     std::vector<std::vector<int>> adjoining(face.weld.size());
     for (int i = 0; i < int(triangles_.size()); ++i) {
         for (const int node : triangles_[i]) adjoining[node].push_back(i);
@@ -34,35 +35,37 @@ NodeNormals::NodeNormals(const Face& face) {
         first_adjoining_.push_back(int(adjoining_.size()));
         adjoining_.insert(adjoining_.end(), adjoining[first].begin(), adjoining[first].end());
         end_adjoining_.push_back(int(adjoining_.size()));
-        std::set<int> corners;
-        for (const int i : adjoining[first]) corners.insert(triangles_[i].begin(), triangles_[i].end());
-        first_corner_.push_back(int(corners_.size()));
-        corners_.insert(corners_.end(), corners.begin(), corners.end());
-        end_corner_.push_back(int(corners_.size()));
     }
 }
 
-void NodeNormals::compute(const NodesF& places, NodesF& normals) const {
+void NodeNormals::compute(const NodesF& places, NodesF& normals) {
     normals.resize(places.rows(), 3);
-    for (int node = 0; node < int(places.rows()); ++node) normals.row(node) = at(node, places);
+    const std::vector<std::uint8_t> all(places.rows(), 1);
+    for (int i = 0; i < triangles(); ++i) turn(i, places, all);
+    for (int node = 0; node < int(places.rows()); ++node) normals.row(node) = of(node);
 }
 
-RowVector3f NodeNormals::at(int node, const NodesF& places) const {
-    RowVector3f sum = RowVector3f::Zero();
+void NodeNormals::turn(int triangle, const NodesF& places, std::span<const std::uint8_t> moved) {
+    const auto& [a, b, c] = triangles_[triangle];
+    turned_[triangle] = moved[a] | moved[b] | moved[c];
+    if (turned_[triangle] == 0) return;
+    const RowVector3f from = places.row(a);
+    const RowVector3f area = (places.row(b) - from).cross(places.row(c) - from);
+    doubled_areas_[triangle] = {area.x(), area.y(), area.z(), 0};
+}
+
+bool NodeNormals::turned(int node) const {
     for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) {
-        const auto& [a, b, c] = triangles_[adjoining_[i]];
-        const RowVector3f from = places.row(a);
-        sum += (places.row(b) - from).cross(places.row(c) - from);
-    }
-    const float length = sum.norm();
-    return length > 0 ? RowVector3f(sum / length) : RowVector3f::UnitZ();
-}
-
-bool NodeNormals::adjoins(int node, std::span<const std::uint8_t> moved) const {
-    for (int i = first_corner_[node]; i < end_corner_[node]; ++i) {
-        if (moved[corners_[i]] != 0) return true;
+        if (turned_[adjoining_[i]] != 0) return true;
     }
     return false;
+}
+
+RowVector3f NodeNormals::of(int node) const {
+    Eigen::RowVector4f sum = Eigen::RowVector4f::Zero();
+    for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) sum += doubled_areas_[adjoining_[i]];
+    const float length = sum.head<3>().norm();
+    return length > 0 ? RowVector3f(sum.head<3>() / length) : RowVector3f::UnitZ();
 }
 
 Tangents rest_tangents(const Face& face, const NodesF& normals) {

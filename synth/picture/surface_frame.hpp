@@ -15,17 +15,20 @@ using NodesF = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;  // [no
 class NodeNormals {
   public:
     explicit NodeNormals(const Face& face);
-    void compute(const NodesF& places, NodesF& normals) const;
-    Eigen::RowVector3f at(int node, const NodesF& places) const;  // unit length; (0, 0, 1) where undefined
-    // Whether a corner of the triangles that adjoin the node is 1 in `moved`, [nodes].
-    bool adjoins(int node, std::span<const std::uint8_t> moved) const;
+    void compute(const NodesF& places, NodesF& normals);
+
+    int triangles() const { return int(triangles_.size()); }
+    // Takes in the triangle's corners' places if one of them is 1 in `moved`, [nodes].
+    void turn(int triangle, const NodesF& places, std::span<const std::uint8_t> moved);
+    bool turned(int node) const;            // whether an adjoining triangle was taken in when last asked to
+    Eigen::RowVector3f of(int node) const;  // unit length; (0, 0, 1) where undefined
 
   private:
     std::vector<Triangle> triangles_;                   // of welded nodes
+    std::vector<Eigen::RowVector4f> doubled_areas_;     // along the triangles' normals, mm^2
+    std::vector<std::uint8_t> turned_;                  // of each triangle
     std::vector<int> adjoining_;                        // triangles, node after node
     std::vector<int> first_adjoining_, end_adjoining_;  // of each node
-    std::vector<int> corners_;                    // of the adjoining triangles, each once, node after node
-    std::vector<int> first_corner_, end_corner_;  // of each node
 };
 
 // [nodes x 4]: unit direction of rising u at rest, and in column 4 the sign that makes
