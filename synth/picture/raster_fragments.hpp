@@ -18,14 +18,13 @@ struct Lit {
 
 // Channel by channel, 0 to 1; bilinear; sideways the texture repeats.
 VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide (&channels)[8]) {
-    Wide width, height;
-    for (int lane = 0; lane < 8; ++lane) {
-        width[lane] = levels[lane]->columns;
-        height[lane] = levels[lane]->rows;
-    }
+    Four sizes[8];
+    for (int lane = 0; lane < 8; ++lane) sizes[lane] = load<Four>(&levels[lane]->columns);
+    Wide size[4];
+    turn(sizes, size);
     s = lesser(greater(s, wide(-1e6f)), wide(1e6f));
-    const Wide column = (s - floor(s)) * width + 0.5f;
-    const Wide row = lesser(positive(t), wide(1.0f)) * height + 0.5f;
+    const Wide column = (s - floor(s)) * size[0] + 0.5f;
+    const Wide row = lesser(positive(t), wide(1.0f)) * size[1] + 0.5f;
     const Wide left = floor(column), upper = floor(row);
     const Wide column_share = column - left, row_share = row - upper;
     const WideInt texel = __builtin_convertvector(left, WideInt),
@@ -47,6 +46,7 @@ VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide 
 struct Corners {
     const std::byte* nodes;
     std::uint32_t offsets[3][8];  // bytes
+    const Level* levels[8];
 
     VIAFACE_INLINE Corners(const Scene& scene, const std::int32_t* facets)
         : nodes(reinterpret_cast<const std::byte*>(scene.nodes)) {
@@ -56,6 +56,11 @@ struct Corners {
         Wide columns[4];
         turn(rows, columns);
         for (int i = 0; i < 3; ++i) store(offsets[i], WideInt(columns[i]) * std::int32_t(sizeof(Node)));
+        std::uint32_t level[8];
+        store(level, WideInt(columns[3]) * std::int32_t(sizeof(Level)));
+        for (int lane = 0; lane < 8; ++lane)
+            levels[lane] = reinterpret_cast<const Level*>(reinterpret_cast<const std::byte*>(scene.levels) +
+                                                          level[lane]);
     }
     VIAFACE_INLINE const Node& node(int corner, int lane) const {
         return *reinterpret_cast<const Node*>(nodes + offsets[corner][lane]);
@@ -95,9 +100,6 @@ VIAFACE_INLINE Three way_to_camera(const Scene& scene, Wide x, Wide y) {
 
 // At the middles of eight fragments' pixels.
 VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt x, WideInt y) {
-    const Level* levels[8];
-    for (int lane = 0; lane < 8; ++lane)
-        levels[lane] = scene.levels + scene.triangles.triangles[std::uint32_t(facets[lane])].level;
     const Corners corners(scene, facets);
     Wide shares[3];
     share_out(corners, x, y, shares);
@@ -115,7 +117,7 @@ VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt
     Wide light[4];
     turn(lights, light);
     Wide texels[8];
-    fetch(levels, places[6], places[7], texels);
+    fetch(corners.levels, places[6], places[7], texels);
     return {{places[0], places[1], places[2]},
             {places[3], places[4], places[5]},
             way_to_camera(scene, __builtin_convertvector(x, Wide), __builtin_convertvector(y, Wide)),

@@ -48,6 +48,7 @@ std::vector<raster::Facet> facets_of(const Face& face) {
     for (const auto& [material, triangles] : layers_of(face)) {
         for (const auto& [a, b, c] : triangles) {
             facets.push_back({{a, b, c},
+                              0,
                               static_cast<std::uint8_t>(material),
                               shade_of(material),
                               inside_mouth(material),
@@ -56,7 +57,7 @@ std::vector<raster::Facet> facets_of(const Face& face) {
         }
     }
     while (facets.size() % 8 != 0)
-        facets.push_back({{0, 0, 0}, 0, raster::Shade::kCloth, false, false, false});
+        facets.push_back({{0, 0, 0}, 0, 0, raster::Shade::kCloth, false, false, false});
     return facets;
 }
 

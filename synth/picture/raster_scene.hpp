@@ -45,9 +45,9 @@ struct alignas(64) Node {
 // Texels of 8 bytes: base R G B A, detail R G B A. A border of one texel goes round: sideways the texture
 // repeats, up and down its edge does.
 struct Level {
-    const std::uint8_t* border;  // [(height + 2) x (width + 2) x 8]
-    std::ptrdiff_t stride;       // bytes from a row to the next
     float columns, rows;         // without the border
+    std::ptrdiff_t stride;       // bytes from a row to the next
+    const std::uint8_t* border;  // [(height + 2) x (width + 2) x 8]
 };
 
 enum class Shade : std::uint8_t { kSkin, kInside, kEye, kCloth, kLash };
@@ -55,6 +55,7 @@ inline constexpr int kOpaqueShades = 4;
 
 struct Facet {
     std::int32_t node[3];
+    std::int32_t level;  // of all materials' textures; set up with its triangle
     std::uint8_t material;
     Shade shade;
     bool inside;  // seen through the opening alone
@@ -77,9 +78,9 @@ struct alignas(64) Triangle {
     std::int32_t first[3];  // in steps of an eighth of a pixel; of small triangles alone
     std::int32_t small;     // a box of kSmall pixels at most, either way: all is exact in 32 bits
     std::int32_t right[3];  // per step of the grid
-    std::int32_t level;     // of all materials' textures
-    std::int32_t up[3];     // per step of the grid
-    std::int32_t unused;
+    std::int32_t unused_1;
+    std::int32_t up[3];  // per step of the grid
+    std::int32_t unused_2;
     float nearness, nearness_right, nearness_up, material;
 };
 inline constexpr int kSmall = 128;
@@ -112,7 +113,7 @@ struct Triangles {
 
 struct Scene {
     const Node* nodes;
-    const Facet* facets;  // a multiple of eight
+    Facet* facets;  // a multiple of eight
     const TexelWays* texel_ways;
     Triangles triangles;
     const Level* levels;  // [materials x kLevels], the coarsest repeated

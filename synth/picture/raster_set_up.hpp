@@ -64,11 +64,14 @@ class SettingUp {
     VIAFACE_INLINE void write() const {
         Four firsts[8], rights[8], ups[8], planes[8], boxes[8];
         turn({Wide(starts_[0]), Wide(starts_[1]), Wide(starts_[2]), Wide(small_)}, firsts);
-        turn({Wide(edges_[0].right), Wide(edges_[1].right), Wide(edges_[2].right), Wide(levels())}, rights);
+        turn({Wide(edges_[0].right), Wide(edges_[1].right), Wide(edges_[2].right), Wide{}}, rights);
         turn({Wide(edges_[0].up), Wide(edges_[1].up), Wide(edges_[2].up), Wide{}}, ups);
         turn({nearness_, nearness_right_, nearness_up_, __builtin_convertvector(material_, Wide)}, planes);
         turn({Wide(left_), Wide(bottom_), Wide(right_), Wide(top_)}, boxes);
+        std::int32_t levels_of[8];
+        store(levels_of, levels());
         for (int lane = 0; lane < 8; ++lane) {
+            scene_.facets[first_ + lane].level = levels_of[lane];
             Triangle& triangle = scene_.triangles.triangles[first_ + lane];
             store(triangle.first, firsts[lane]);
             store(triangle.right, rights[lane]);

@@ -6,11 +6,16 @@ namespace viaface {
 namespace {
 
 constexpr int kRowsAtOnce = 512;
-constexpr int kLooks = 100;  // before sleep, some tens of microseconds
+constexpr int kLooks = 500;  // before sleep, a few tenths of a millisecond
 
-template <class Ready>
-void look_for(const Ready& ready) {
-    for (int i = 0; i < kLooks && !ready(); ++i) std::this_thread::yield();
+// Returns when the number is another.
+template <class Number>
+void wait_for_another(const std::atomic<Number>& number, Number old) {
+    for (int i = 0; i < kLooks; ++i) {
+        if (number.load(std::memory_order_acquire) != old) return;
+        std::this_thread::yield();
+    }
+    number.wait(old, std::memory_order_acquire);
 }
 
 }  // namespace
@@ -20,28 +25,23 @@ WorkPool::WorkPool(int threads) {
 }
 
 WorkPool::~WorkPool() {
-    {
-        const std::lock_guard lock(mutex_);
-        over_ = true;
-    }
-    called_.notify_all();
+    over_ = true;
+    ++calls_;
+    calls_.notify_all();
     for (std::thread& worker : workers_) worker.join();
 }
 
 void WorkPool::share(int items, const Work& work) {
-    std::unique_lock lock(mutex_);
     work_ = &work;
-    next_ = 0;
-    items_ = unfinished_ = items;
+    items_ = items;
+    unfinished_ = items;
+    left_.store(items, std::memory_order_release);
     if (items > 1) {
         ++calls_;
-        called_.notify_all();
+        calls_.notify_all();
     }
-    take_items(lock, 0);
-    lock.unlock();
-    look_for([&] { return unfinished_ == 0; });
-    lock.lock();
-    done_.wait(lock, [&] { return unfinished_ == 0; });
+    take_items(0);
+    for (int left = unfinished_; left > 0; left = unfinished_) wait_for_another(unfinished_, left);
 }
 
 void WorkPool::share_rows(int rows, const Rows& work) {
@@ -50,25 +50,18 @@ void WorkPool::share_rows(int rows, const Rows& work) {
 }
 
 void WorkPool::serve(int thread) {
-    std::unique_lock lock(mutex_);
-    while (true) {
-        called_.wait(lock, [&] { return over_ || next_ < items_; });
-        if (over_) return;
-        take_items(lock, thread);
-        const unsigned calls = calls_;
-        lock.unlock();
-        look_for([&] { return calls_ != calls; });
-        lock.lock();
+    for (unsigned calls = 0; !over_; calls = calls_) {
+        take_items(thread);
+        wait_for_another(calls_, calls);
     }
 }
 
-void WorkPool::take_items(std::unique_lock<std::mutex>& lock, int thread) {
-    while (next_ < items_) {
-        const int item = next_++;
-        lock.unlock();
-        (*work_)(item, thread);
-        lock.lock();
-        if (--unfinished_ == 0) done_.notify_one();
+void WorkPool::take_items(int thread) {
+    for (int left = left_.load(std::memory_order_acquire); left > 0;) {
+        if (!left_.compare_exchange_weak(left, left - 1, std::memory_order_acq_rel)) continue;
+        (*work_)(items_ - left, thread);
+        if (--unfinished_ == 0) unfinished_.notify_one();
+        left = left_.load(std::memory_order_acquire);
     }
 }
 

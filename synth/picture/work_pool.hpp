@@ -1,11 +1,10 @@
 // A few threads that share numbered work; the caller is one of them. Who has nothing to do looks for work a
-// little while before he sleeps, as one piece of work mostly follows upon another.
+// little while before he sleeps, as one piece of work mostly follows upon another, and to be woken takes
+// longer than most pieces.
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -29,15 +28,16 @@ class WorkPool {
 
   private:
     void serve(int thread);
-    void take_items(std::unique_lock<std::mutex>& lock, int thread);
+    void take_items(int thread);
 
-    std::mutex mutex_;
-    std::condition_variable called_, done_;
+    // Written by the caller while nothing is left to take, read by who has taken an item.
     const Work* work_ = nullptr;
-    int next_ = 0, items_ = 0;  // with the mutex
-    bool over_ = false;         // with the mutex
-    std::atomic<int> unfinished_ = 0;
+    int items_ = 0;
+
+    std::atomic<int> left_ = 0;        // items that nobody has taken
+    std::atomic<int> unfinished_ = 0;  // items
     std::atomic<unsigned> calls_ = 0;
+    std::atomic<bool> over_ = false;
     std::vector<std::thread> workers_;
 };
 

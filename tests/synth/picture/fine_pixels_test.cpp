@@ -31,6 +31,7 @@ struct Sheet {
         for (const auto& [a, b, c] :
              {std::array{0, 1, 4}, std::array{0, 4, 3}, std::array{1, 2, 5}, std::array{1, 5, 4}})
             facets.push_back({{a, b, c},
+                              0,
                               std::uint8_t(material),
                               shade,
                               shade == raster::Shade::kInside,
