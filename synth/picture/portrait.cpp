@@ -102,10 +102,9 @@ class Portrait::Impl {
         });
         for (int part = 1; part < parts; ++part) bands_[0].take_from(bands_[part]);
         const Extent opening = posed_.mouth().swept_opening();
-        for (const Triangle& t : posed_.mouth().triangles()) {
-            if (moved(t)) bands_[0].mark(within(swept(t), opening));
-        }
-        if (posed_.mouth().opening_changed()) bands_[0].mark(opening);
+        const auto moved_inside = [&](const Triangle& t) { return moved(t); };
+        if (posed_.mouth().opening_changed() || std::ranges::any_of(posed_.mouth().triangles(), moved_inside))
+            bands_[0].mark(opening);
         return bands_[0].take();
     }
 

@@ -122,9 +122,11 @@ void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
         });
     };
     for_nodes([&](int node) { place(posed, node); });
-    mouth_.look(pixels_, swept_);
-    pool.share_rows(node_normals_.triangles(), [&](int first, int end) {
-        for (int i = first; i < end; ++i) node_normals_.turn(i, places_, moved_);
+    const int parts = 2 * pool.threads(), triangles = node_normals_.triangles();
+    pool.share(1 + parts, [&](int item, int) {
+        if (item == 0) return mouth_.look(pixels_, swept_);
+        for (int i = (item - 1) * triangles / parts; i < item * triangles / parts; ++i)
+            node_normals_.turn(i, places_, moved_);
     });
     for_nodes([&](int node) { turn(node); });
     mouth_light_.compute(places_, normals_, mouth_.nodes(), pool, light_);
