@@ -16,7 +16,17 @@ struct Lit {
     Wide slope_x, slope_y, roughness, thinness;
 };
 
-// Channel by channel, 0 to 1; bilinear; sideways the texture repeats.
+VIAFACE_INLINE WideInt weights_across(Wide share) {
+    const WideInt right = __builtin_convertvector(share * float(Blend::kAcross) + 0.5f, WideInt);
+    const WideInt once = (Blend::kAcross - right) | right << 8;
+    return once | once << 16;
+}
+VIAFACE_INLINE WideInt weights_down(Wide share) {
+    const WideInt lower = __builtin_convertvector(share * float(Blend::kDown) + 0.5f, WideInt);
+    return (Blend::kDown - lower) | lower << 16;
+}
+
+// Channel by channel, 0 to 1; bilinear, in steps of the weights; sideways the texture repeats.
 VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide (&channels)[8]) {
     Four sizes[8];
     for (int lane = 0; lane < 8; ++lane) sizes[lane] = load<Four>(&levels[lane]->columns);
@@ -26,20 +36,21 @@ VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide 
     const Wide column = (s - floor(s)) * size[0] + 0.5f;
     const Wide row = lesser(positive(t), wide(1.0f)) * size[1] + 0.5f;
     const Wide left = floor(column), upper = floor(row);
-    const Wide column_share = column - left, row_share = row - upper;
+    std::int32_t across[8], down[8];
+    store(across, weights_across(column - left));
+    store(down, weights_down(row - upper));
     const WideInt texel = __builtin_convertvector(left, WideInt),
                   line = __builtin_convertvector(upper, WideInt);
     for (int lane = 0; lane < 8; ++lane) {
         const std::ptrdiff_t stride = levels[lane]->stride;
         const std::uint8_t* const at =
             levels[lane]->border + line[lane] * stride + std::ptrdiff_t(texel[lane]) * 8;
-        const Wide a = from_bytes(at), b = from_bytes(at + 8), c = from_bytes(at + stride),
-                   d = from_bytes(at + stride + 8);
-        const Wide high = a + (b - a) * column_share[lane], low = c + (d - c) * column_share[lane];
-        channels[lane] = high + (low - high) * row_share[lane];
+        channels[lane] = Wide(blended(at, at + stride, {across[lane], down[lane]}));
     }
     transpose(channels);
-    for (int i = 0; i < 8; ++i) channels[i] *= 1.0f / 255;
+    constexpr float kAll = 255.0f * Blend::kAcross * Blend::kDown;
+    for (int i = 0; i < 8; ++i)
+        channels[i] = __builtin_convertvector(WideInt(channels[i]), Wide) * (1 / kAll);
 }
 
 // Of eight facets.
