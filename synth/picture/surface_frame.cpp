@@ -45,20 +45,11 @@ void NodeNormals::compute(const NodesF& places, NodesF& normals) {
     for (int node = 0; node < int(places.rows()); ++node) normals.row(node) = of(node);
 }
 
-void NodeNormals::turn(int triangle, const NodesF& places, std::span<const std::uint8_t> moved) {
+void NodeNormals::take_in(int triangle, const NodesF& places) {
     const auto& [a, b, c] = triangles_[triangle];
-    turned_[triangle] = moved[a] | moved[b] | moved[c];
-    if (turned_[triangle] == 0) return;
     const RowVector3f from = places.row(a);
     const RowVector3f area = (places.row(b) - from).cross(places.row(c) - from);
     doubled_areas_[triangle] = {area.x(), area.y(), area.z(), 0};
-}
-
-bool NodeNormals::turned(int node) const {
-    for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) {
-        if (turned_[adjoining_[i]] != 0) return true;
-    }
-    return false;
 }
 
 RowVector3f NodeNormals::of(int node) const {

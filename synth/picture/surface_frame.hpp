@@ -19,11 +19,23 @@ class NodeNormals {
 
     int triangles() const { return int(triangles_.size()); }
     // Takes in the triangle's corners' places if one of them is 1 in `moved`, [nodes].
-    void turn(int triangle, const NodesF& places, std::span<const std::uint8_t> moved);
-    bool turned(int node) const;            // whether an adjoining triangle was taken in when last asked to
+    void turn(int triangle, const NodesF& places, std::span<const std::uint8_t> moved) {
+        const auto& [a, b, c] = triangles_[triangle];
+        turned_[triangle] = moved[a] | moved[b] | moved[c];
+        if (turned_[triangle] != 0) take_in(triangle, places);
+    }
+    // Whether an adjoining triangle was taken in when last asked to.
+    bool turned(int node) const {
+        for (int i = first_adjoining_[node]; i < end_adjoining_[node]; ++i) {
+            if (turned_[adjoining_[i]] != 0) return true;
+        }
+        return false;
+    }
     Eigen::RowVector3f of(int node) const;  // unit length; (0, 0, 1) where undefined
 
   private:
+    void take_in(int triangle, const NodesF& places);
+
     std::vector<Triangle> triangles_;                   // of welded nodes
     std::vector<Eigen::RowVector4f> doubled_areas_;     // along the triangles' normals, mm^2
     std::vector<std::uint8_t> turned_;                  // of each triangle
