@@ -289,6 +289,7 @@ std::vector<FacePart> coarser_parts(const Face& face, const Coarseness& most, Wo
     NodeNormals(face).compute(face.rest.cast<float>(), normals);
     std::vector<FacePart> parts = face.parts;
     pool.share(int(parts.size()), [&](int i, int) {
+        if (parts[i].drive == Drive::kTongue) return;
         Thinning thinning(face, parts[i], stays, normals, most);
         thinning.run();
         parts[i].triangles = thinning.triangles();

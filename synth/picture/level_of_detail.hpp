@@ -21,7 +21,8 @@ struct Coarseness {
 Coarseness coarseness_for(double pixel);  // mm
 
 // The parts of the face with fewer triangles, whose corners are some of the same nodes. Nodes at the edges of
-// parts and at seams stay, and with them the contours of the lips.
+// parts and at seams stay, and with them the contours of the lips; so does the tongue, whose bends are in no
+// mode.
 std::vector<FacePart> coarser_parts(const Face& face, const Coarseness& most, WorkPool& pool);
 
 }  // namespace viaface
