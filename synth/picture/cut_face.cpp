@@ -80,8 +80,8 @@ Rows rows_with_cut(const Rows& rows, const std::vector<CutNode>& nodes) {
 
 Nodes with_cut(const Nodes& whole, const std::vector<CutNode>& nodes) { return rows_with_cut(whole, nodes); }
 
-CutFace cut_skin(const Face& face, const Eigen::VectorXd& field, bool (*keeps)(Material)) {
-    CutFace cut{face, {}};
+CutFace cut_skin(Face face, const Eigen::VectorXd& field, bool (*keeps)(Material)) {
+    CutFace cut{std::move(face), {}};
     Cutter cutter(field);
     for (FacePart& part : cut.face.parts) {
         if (part.material == Material::kSkin) {
@@ -91,9 +91,9 @@ CutFace cut_skin(const Face& face, const Eigen::VectorXd& field, bool (*keeps)(M
         }
     }
     cut.nodes = std::move(cutter.nodes);
-    cut.face.rest = with_cut(face.rest, cut.nodes);
-    cut.face.uvs = rows_with_cut(face.uvs, cut.nodes);
-    for (auto i = std::ssize(face.weld); i < cut.face.rest.rows(); ++i)
+    cut.face.rest = with_cut(cut.face.rest, cut.nodes);
+    cut.face.uvs = rows_with_cut(cut.face.uvs, cut.nodes);
+    for (auto i = std::ssize(cut.face.weld); i < cut.face.rest.rows(); ++i)
         cut.face.weld.push_back(static_cast<int>(i));
     return cut;
 }

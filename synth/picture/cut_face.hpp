@@ -25,6 +25,6 @@ Nodes with_cut(const Nodes& whole, const std::vector<CutNode>& nodes);
 
 // Keeps the skin where the field is not negative, and of the other materials those that `keeps` names.
 // field: [nodes of the face].
-CutFace cut_skin(const Face& face, const Eigen::VectorXd& field, bool (*keeps)(Material));
+CutFace cut_skin(Face face, const Eigen::VectorXd& field, bool (*keeps)(Material));
 
 }  // namespace viaface

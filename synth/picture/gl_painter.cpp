@@ -51,10 +51,10 @@ void scissor(const Rect& rect) { glScissor(rect.left, rect.bottom, rect.width, r
 
 class GlPainter : public Painter {
   public:
-    GlPainter(const Face& face, const View& view)
+    GlPainter(const Face& face, const Surfaces& surfaces, const View& view)
         : context_(make_osmesa_context()),
           picture_(view.width, view.height),
-          shading_(face, view, camera_of(view)),
+          shading_(surfaces, view, camera_of(view)),
           layers_(layers_of(face)),
           buffers_(upload(face)) {
         check_gl("uploading a face");
@@ -133,8 +133,8 @@ class GlPainter : public Painter {
 
 }  // namespace
 
-std::unique_ptr<Painter> make_gl_painter(const Face& face, const View& view) {
-    return std::make_unique<GlPainter>(face, view);
+std::unique_ptr<Painter> make_gl_painter(const Face& face, const Surfaces& surfaces, const View& view) {
+    return std::make_unique<GlPainter>(face, surfaces, view);
 }
 
 }  // namespace viaface

@@ -6,6 +6,8 @@
 
 namespace viaface {
 
+using Surfaces = decltype(Face::surfaces);  // of all materials
+
 struct PackedTextures {
     Texture base;    // R, G, B sRGB; A occlusion or cover
     Texture detail;  // R, G slopes; B roughness; A thinness. As large as base.

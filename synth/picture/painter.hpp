@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "synth/picture/packed_textures.hpp"
 #include "synth/picture/portrait.hpp"
 #include "synth/picture/posed_vertices.hpp"
 #include "synth/picture/rect.hpp"
@@ -21,9 +22,10 @@ class Painter {
                        std::uint8_t* rgba) = 0;
 };
 
+// Of a face its surfaces are not asked for.
 std::unique_ptr<Painter> make_wire_painter(const Face& face, const View& view);
-std::unique_ptr<Painter> make_gl_painter(const Face& face, const View& view);
-std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, Instructions instructions,
-                                             WorkPool& pool);
+std::unique_ptr<Painter> make_gl_painter(const Face& face, const Surfaces& surfaces, const View& view);
+std::unique_ptr<Painter> make_raster_painter(const Face& face, const Surfaces& surfaces, const View& view,
+                                             Instructions instructions, WorkPool& pool);
 
 }  // namespace viaface

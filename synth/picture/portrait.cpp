@@ -26,11 +26,11 @@ void check(const Face& face) {
     if (!fits) throw std::invalid_argument("a face whose parts, uvs or welds do not fit its nodes");
 }
 
-std::unique_ptr<Painter> make_painter(const Face& face, const View& view, const Drawing& drawing,
-                                      WorkPool& pool) {
+std::unique_ptr<Painter> make_painter(const Face& face, const Surfaces& surfaces, const View& view,
+                                      const Drawing& drawing, WorkPool& pool) {
     if (view.shown == Shown::kWireframe) return make_wire_painter(face, view);
-    if (drawing.renderer == Renderer::kOsmesa) return make_gl_painter(face, view);
-    return make_raster_painter(face, view, drawing.instructions, pool);
+    if (drawing.renderer == Renderer::kOsmesa) return make_gl_painter(face, surfaces, view);
+    return make_raster_painter(face, surfaces, view, drawing.instructions, pool);
 }
 
 std::vector<Triangle> outside_mouth(const Face& face) {
@@ -42,11 +42,20 @@ std::vector<Triangle> outside_mouth(const Face& face) {
 }
 
 // In the detail that shows; all of it where the mesh itself is looked at.
-Face in_detail(const Face& face, const View& view, WorkPool& pool) {
-    Face seen = face;
-    if (view.shown != Shown::kWireframe)
-        seen.parts = coarser_parts(face, coarseness_for(pixel_size(view)), pool);
-    return seen;
+std::vector<FacePart> parts_in_detail(const Face& face, const View& view, WorkPool& pool) {
+    if (view.shown == Shown::kWireframe) return face.parts;
+    return coarser_parts(face, coarseness_for(pixel_size(view)), pool);
+}
+
+// What is drawn of a face, but for its surfaces, which are large.
+Face drawn_of(const Face& face, std::vector<FacePart> parts) {
+    Face drawn;
+    drawn.rest = face.rest;
+    drawn.uvs = face.uvs;
+    drawn.weld = face.weld;
+    drawn.parts = std::move(parts);
+    drawn.lips = face.lips;
+    return drawn;
 }
 
 }  // namespace
@@ -54,14 +63,15 @@ Face in_detail(const Face& face, const View& view, WorkPool& pool) {
 class Portrait::Impl {
   public:
     Impl(const CutFace& shown, const View& view, const Drawing& drawing, std::unique_ptr<WorkPool> pool)
-        : Impl(shown.face, view, drawing, std::move(pool)) {
+        : Impl(shown.face, shown.face.surfaces, view, drawing, std::move(pool)) {
         cut_ = shown.nodes;
     }
 
-    Impl(const Face& face, const View& view, const Drawing& drawing, std::unique_ptr<WorkPool> pool)
+    Impl(const Face& face, const Surfaces& surfaces, const View& view, const Drawing& drawing,
+         std::unique_ptr<WorkPool> pool)
         : view_(view),
           pool_(std::move(pool)),
-          painter_(make_painter(face, view, drawing, *pool_)),
+          painter_(make_painter(face, surfaces, view, drawing, *pool_)),
           posed_(face, view),
           bands_(pool_->threads(), ChangedBands(view.width, view.height)),
           outside_mouth_(outside_mouth(face)),
@@ -134,9 +144,15 @@ Portrait::Portrait(const Face& face, const View& view, const Drawing& drawing) {
     check(view);
     check(face);
     auto pool = std::make_unique<WorkPool>(std::max(1, drawing.threads));
-    const Face seen = in_detail(face, view, *pool);
-    impl_ = shows_all(view) ? std::make_unique<Impl>(seen, view, drawing, std::move(pool))
-                            : std::make_unique<Impl>(shown_face(seen, view), view, drawing, std::move(pool));
+    std::vector<FacePart> parts = parts_in_detail(face, view, *pool);
+    if (shows_all(view)) {
+        impl_ = std::make_unique<Impl>(drawn_of(face, std::move(parts)), face.surfaces, view, drawing,
+                                       std::move(pool));
+        return;
+    }
+    Face seen = face;
+    seen.parts = std::move(parts);
+    impl_ = std::make_unique<Impl>(shown_face(std::move(seen), view), view, drawing, std::move(pool));
 }
 Portrait::~Portrait() = default;
 Portrait::Portrait(Portrait&&) noexcept = default;

@@ -77,7 +77,8 @@ raster::Bounds bounds_of(std::span<const Rect> rects) {
 
 class RasterPainter : public Painter {
   public:
-    RasterPainter(const Face& face, const View& view, Instructions instructions, WorkPool& pool)
+    RasterPainter(const Face& face, const Surfaces& surfaces, const View& view, Instructions instructions,
+                  WorkPool& pool)
         : facets_(facets_of(face)),
           nodes_(face, view),
           background_(std::size_t(view.width) * view.height),
@@ -88,7 +89,7 @@ class RasterPainter : public Painter {
           kernel_(kernel_of(instructions)),
           pool_(pool),
           workspaces_(pool.threads(), Workspace(view.width)) {
-        prepare_textures(face);
+        prepare_textures(surfaces);
         const Texture background = make_background(view);
         std::memcpy(background_.data(), background.pixels.data(), background.pixels.size());
         prepare_scene(view);
@@ -116,9 +117,9 @@ class RasterPainter : public Painter {
     }
 
   private:
-    void prepare_textures(const Face& face) {
+    void prepare_textures(const Surfaces& surfaces) {
         for (int i = 0; i < kMaterials; ++i) {
-            textures_.emplace_back(pack(face.surfaces[i], static_cast<Material>(i)));
+            textures_.emplace_back(pack(surfaces[i], static_cast<Material>(i)));
             levels_.insert(levels_.end(), textures_.back().levels().begin(), textures_.back().levels().end());
         }
         for (const raster::Facet& facet : facets_) texel_ways_.push_back(texel_ways(facet));
@@ -189,9 +190,9 @@ class RasterPainter : public Painter {
 
 }  // namespace
 
-std::unique_ptr<Painter> make_raster_painter(const Face& face, const View& view, Instructions instructions,
-                                             WorkPool& pool) {
-    return std::make_unique<RasterPainter>(face, view, instructions, pool);
+std::unique_ptr<Painter> make_raster_painter(const Face& face, const Surfaces& surfaces, const View& view,
+                                             Instructions instructions, WorkPool& pool) {
+    return std::make_unique<RasterPainter>(face, surfaces, view, instructions, pool);
 }
 
 }  // namespace viaface

@@ -27,11 +27,11 @@ void prepare(const Program& program, const Camera& camera, Material material) {
 
 }  // namespace
 
-Shading::Shading(const Face& face, const View& view, const Camera& camera) {
+Shading::Shading(const Surfaces& surfaces, const View& view, const Camera& camera) {
     programs_.reserve(kMaterials);
     for (int i = 0; i < kMaterials; ++i) {
         const auto material = static_cast<Material>(i);
-        const PackedTextures packed = pack(face.surfaces[i], material);
+        const PackedTextures packed = pack(surfaces[i], material);
         programs_.emplace_back(vertex_shader(), fragment_shader(material));
         prepare(programs_.back(), camera, material);
         bound_[i] = {&programs_.back(), make_texture(packed.base), make_texture(packed.detail)};

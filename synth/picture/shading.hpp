@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "synth/picture/gl.hpp"
+#include "synth/picture/packed_textures.hpp"
 #include "synth/picture/view.hpp"
 
 namespace viaface {
@@ -27,7 +28,7 @@ enum VertexAttribute : GLuint {
 
 class Shading {
   public:
-    Shading(const Face& face, const View& view, const Camera& camera);
+    Shading(const Surfaces& surfaces, const View& view, const Camera& camera);
 
     void draw_background() const;         // whole scissor rectangle, depth cleared
     void begin(Material material) const;  // what is drawn next is of this material

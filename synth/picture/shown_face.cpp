@@ -82,12 +82,11 @@ bool shows_all(const View& view) {
     return view.texture && view.shown != Shown::kLowerFace && view.shown != Shown::kLips;
 }
 
-CutFace shown_face(const Face& face, const View& view) {
-    CutFace shown = view.shown == Shown::kLowerFace ? cut_skin(face, below_middle(face), &of_mouth)
-                    : view.shown == Shown::kLips    ? cut_skin(face, on_jaw(face), &of_mouth)
-                                                    : CutFace{face, {}};
-    if (!view.texture) take_textures(shown.face);
-    return shown;
+CutFace shown_face(Face face, const View& view) {
+    if (!view.texture) take_textures(face);
+    if (view.shown != Shown::kLowerFace && view.shown != Shown::kLips) return {std::move(face), {}};
+    const Eigen::VectorXd field = view.shown == Shown::kLips ? on_jaw(face) : below_middle(face);
+    return cut_skin(std::move(face), field, &of_mouth);
 }
 
 }  // namespace viaface

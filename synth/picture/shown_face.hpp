@@ -11,6 +11,6 @@ namespace viaface {
 // Whether the view shows all of a face as it is.
 bool shows_all(const View& view);
 
-CutFace shown_face(const Face& face, const View& view);
+CutFace shown_face(Face face, const View& view);
 
 }  // namespace viaface
