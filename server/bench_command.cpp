@@ -154,12 +154,12 @@ class Bench {
             for (const Nodes& nodes : posed) portrait.draw(nodes, Portrait::Redraw::kAll);
         });
         print("draw, every frame whole", all.middle, posed.size());
-        print("  the quickest of five times", all.least, posed.size());
+        print("whole, quickest of five times", all.least, posed.size());
         const Times changed([&] {
             for (const Nodes& nodes : posed) portrait.draw(nodes);
         });
         print("draw, what moved", changed.middle, posed.size());
-        print("  the quickest of five times", changed.least, posed.size());
+        print("what moved, quickest of five times", changed.least, posed.size());
         print_figure("drawn whole / drawn where it moved", all.middle / changed.middle, "times");
         print_figure("processors kept from us meanwhile", kept_from_us(before), "%");
     }

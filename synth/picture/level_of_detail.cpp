@@ -19,10 +19,9 @@ using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajo
 constexpr double kWay = 0.2;    // pixels: samples lie a quarter of one apart
 constexpr double kBend = 0.08;  // 1/mm
 constexpr double kMostBend = 0.2;
-constexpr float kTurn = 5;    // bend of a triangle as against its corners
-constexpr double kReach = 3;  // standard deviations of a mode
-constexpr int kPasses = 8;    // over all nodes
-
+constexpr float kTurn = 5;         // bend of a triangle as against its corners
+constexpr double kReach = 3;       // standard deviations of a mode
+constexpr int kPasses = 8;         // over all nodes
 constexpr float kBeyond = -0.01f;  // share of a corner, from rounding
 
 // The neighbours of a node in their order round it.
