@@ -99,6 +99,7 @@ class Bench {
         print_figure("load the talker, once", loading * 1e3, "ms");
         print_figure("set up the picture, once", setting_up_ * 1e3, "ms");
         print_figure("peak resident set", peak_resident_mb(), "MB");
+        if (request_.say.renderer == Renderer::kRaster) draw_with_avx2();
     }
 
   private:
@@ -125,17 +126,21 @@ class Bench {
         print("spline at frame times", evaluating, times_.size());
     }
 
-    void pose_and_draw() {
+    std::vector<Nodes> poses() const {
         BlinkSchedule blinks(request_.say.seed);
         std::vector<Nodes> posed;
         posed.reserve(times_.size());
-        const double posing = seconds_of([&] {
-            for (std::size_t n = 0; n < times_.size(); ++n) {
-                const double shut = blinks.amount(times_[n]);
-                posed.push_back(talker_->poser.posed(motion_.row(static_cast<Eigen::Index>(n)).transpose(),
-                                                     {shut, shut}));
-            }
-        });
+        for (std::size_t n = 0; n < times_.size(); ++n) {
+            const double shut = blinks.amount(times_[n]);
+            posed.push_back(
+                talker_->poser.posed(motion_.row(static_cast<Eigen::Index>(n)).transpose(), {shut, shut}));
+        }
+        return posed;
+    }
+
+    void pose_and_draw() {
+        std::vector<Nodes> posed;
+        const double posing = seconds_of([&] { posed = poses(); });
         print("pose", posing, times_.size());
         std::optional<Portrait> portrait;
         setting_up_ = seconds_of([&] {
@@ -155,13 +160,25 @@ class Bench {
         });
         print("draw, every frame whole", all.middle, posed.size());
         print("whole, quickest of five times", all.least, posed.size());
-        const Times changed([&] {
-            for (const Nodes& nodes : posed) portrait.draw(nodes);
-        });
+        const Times changed = where_moved(portrait, posed);
         print("draw, what moved", changed.middle, posed.size());
         print("what moved, quickest of five times", changed.least, posed.size());
         print_figure("drawn whole / drawn where it moved", all.middle / changed.middle, "times");
         print_figure("processors kept from us meanwhile", kept_from_us(before), "%");
+    }
+
+    static Times where_moved(Portrait& portrait, const std::vector<Nodes>& posed) {
+        return Times([&] {
+            for (const Nodes& nodes : posed) portrait.draw(nodes);
+        });
+    }
+
+    // As a processor draws that has no wider instructions.
+    void draw_with_avx2() const {
+        const std::vector<Nodes> posed = poses();
+        Portrait portrait(talker_->face, request_.say.view, {.widest = Instructions::kAvx2});
+        portrait.draw(posed.front());
+        print("draw, what moved, AVX2 at most", where_moved(portrait, posed).middle, posed.size());
     }
 
     void keep(const FrameView& view) {

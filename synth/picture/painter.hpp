@@ -26,6 +26,6 @@ class Painter {
 std::unique_ptr<Painter> make_wire_painter(const Face& face, const View& view);
 std::unique_ptr<Painter> make_gl_painter(const Face& face, const Surfaces& surfaces, const View& view);
 std::unique_ptr<Painter> make_raster_painter(const Face& face, const Surfaces& surfaces, const View& view,
-                                             Instructions instructions, WorkPool& pool);
+                                             Instructions widest, WorkPool& pool);
 
 }  // namespace viaface

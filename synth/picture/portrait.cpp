@@ -30,7 +30,7 @@ std::unique_ptr<Painter> make_painter(const Face& face, const Surfaces& surfaces
                                       const Drawing& drawing, WorkPool& pool) {
     if (view.shown == Shown::kWireframe) return make_wire_painter(face, view);
     if (drawing.renderer == Renderer::kOsmesa) return make_gl_painter(face, surfaces, view);
-    return make_raster_painter(face, surfaces, view, drawing.instructions, pool);
+    return make_raster_painter(face, surfaces, view, drawing.widest, pool);
 }
 
 std::vector<Triangle> outside_mouth(const Face& face) {

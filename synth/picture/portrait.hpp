@@ -18,15 +18,13 @@ enum class Renderer {
     kOsmesa   // Mesa's, the reference: some ten times slower
 };
 
-enum class Instructions {
-    kBest,     // the widest that this processor has
-    kBaseline  // what every processor has; the same bytes
-};
+// Of the rasteriser, from what every processor has to the widest; the same bytes with any.
+enum class Instructions { kBaseline, kAvx2, kAvx512 };
 
 struct Drawing {
     Renderer renderer = Renderer::kRaster;
     int threads = 2;  // of the rasteriser, the caller's included; the same bytes with any number
-    Instructions instructions = Instructions::kBest;
+    Instructions widest = Instructions::kAvx512;  // that may be taken, where the processor has them
 };
 
 class Portrait {

@@ -1,8 +1,11 @@
-// What the shaders need of fragments: their nodes' values and their texels, eight fragments at a time. For
+// What the shaders need of fragments: their nodes' values and their texels, kLanes fragments at a time. For
 // raster_kernel.cpp alone.
 #pragma once
 
+#include "synth/picture/raster_blend.hpp"
 #include "synth/picture/raster_scene.hpp"
+#include "synth/picture/raster_threes.hpp"
+#include "synth/picture/raster_turn.hpp"
 #include "synth/picture/raster_wide.hpp"
 
 namespace viaface::raster::VIAFACE_KERNEL {
@@ -27,49 +30,49 @@ VIAFACE_INLINE WideInt weights_down(Wide share) {
 }
 
 // Channel by channel, 0 to 1; bilinear, in steps of the weights; sideways the texture repeats.
-VIAFACE_INLINE void fetch(const Level* const (&levels)[8], Wide s, Wide t, Wide (&channels)[8]) {
-    Four sizes[8];
-    for (int lane = 0; lane < 8; ++lane) sizes[lane] = load<Four>(&levels[lane]->columns);
+VIAFACE_INLINE void fetch(const Level* const (&levels)[kLanes], Wide s, Wide t, Wide (&channels)[8]) {
+    Four sizes[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) sizes[lane] = load<Four>(&levels[lane]->columns);
     Wide size[4];
     turn(sizes, size);
     s = lesser(greater(s, wide(-1e6f)), wide(1e6f));
     const Wide column = (s - floor(s)) * size[0] + 0.5f;
     const Wide row = lesser(positive(t), wide(1.0f)) * size[1] + 0.5f;
     const Wide left = floor(column), upper = floor(row);
-    std::int32_t across[8], down[8];
+    std::int32_t across[kLanes], down[kLanes];
     store(across, weights_across(column - left));
     store(down, weights_down(row - upper));
     const WideInt texel = __builtin_convertvector(left, WideInt),
                   line = __builtin_convertvector(upper, WideInt);
-    for (int lane = 0; lane < 8; ++lane) {
+    Eight texels[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
         const std::ptrdiff_t stride = levels[lane]->stride;
         const std::uint8_t* const at =
             levels[lane]->border + line[lane] * stride + std::ptrdiff_t(texel[lane]) * 8;
-        channels[lane] = Wide(blended(at, at + stride, {across[lane], down[lane]}));
+        texels[lane] = Eight(blended(at, at + stride, {across[lane], down[lane]}));
     }
-    transpose(channels);
+    turn(texels, channels);
     constexpr float kAll = 255.0f * Blend::kAcross * Blend::kDown;
-    for (int i = 0; i < 8; ++i)
-        channels[i] = __builtin_convertvector(WideInt(channels[i]), Wide) * (1 / kAll);
+    for (Wide& channel : channels) channel = __builtin_convertvector(WideInt(channel), Wide) * (1 / kAll);
 }
 
-// Of eight facets.
+// Of kLanes facets.
 struct Corners {
     const std::byte* nodes;
-    std::uint32_t offsets[3][8];  // bytes
-    const Level* levels[8];
+    std::uint32_t offsets[3][kLanes];  // bytes
+    const Level* levels[kLanes];
 
     VIAFACE_INLINE Corners(const Scene& scene, const std::int32_t* facets)
         : nodes(reinterpret_cast<const std::byte*>(scene.nodes)) {
-        Four rows[8];
-        for (int lane = 0; lane < 8; ++lane)
+        Four rows[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane)
             rows[lane] = load<Four>(scene.facets[std::uint32_t(facets[lane])].node);
         Wide columns[4];
         turn(rows, columns);
         for (int i = 0; i < 3; ++i) store(offsets[i], WideInt(columns[i]) * std::int32_t(sizeof(Node)));
-        std::uint32_t level[8];
+        std::uint32_t level[kLanes];
         store(level, WideInt(columns[3]) * std::int32_t(sizeof(Level)));
-        for (int lane = 0; lane < 8; ++lane)
+        for (int lane = 0; lane < kLanes; ++lane)
             levels[lane] = reinterpret_cast<const Level*>(reinterpret_cast<const std::byte*>(scene.levels) +
                                                           level[lane]);
     }
@@ -83,8 +86,8 @@ struct Corners {
 VIAFACE_INLINE void share_out(const Corners& corners, WideInt x, WideInt y, Wide (&shares)[3]) {
     Wide right[3], up[3], nearness[3];
     for (int i = 0; i < 3; ++i) {
-        Four rows[8];
-        for (int lane = 0; lane < 8; ++lane) rows[lane] = load<Four>(&corners.node(i, lane).place);
+        Four rows[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane) rows[lane] = load<Four>(&corners.node(i, lane).place);
         Wide columns[4];
         turn(rows, columns);
         right[i] = __builtin_convertvector(WideInt(columns[0]) - (x * kSteps + kSteps / 2), Wide);
@@ -109,38 +112,57 @@ VIAFACE_INLINE Three way_to_camera(const Scene& scene, Wide x, Wide y) {
                  eye[0][2] + x * eye[1][2] + y * eye[2][2]});
 }
 
-// At the middles of eight fragments' pixels.
+// The sum of the corners' numbers, each by its share: eight from Node::normal on, four from Node::light on.
+VIAFACE_INLINE void sum_up(const Corners& corners, const Wide (&shares)[3], Wide (&from_normal)[8],
+                           Wide (&from_light)[4]) {
+    float shares_of[3][kLanes];
+    for (int i = 0; i < 3; ++i) store(shares_of[i], shares[i]);
+#if defined(__AVX512F__)
+    static_assert(sizeof(Wide) == sizeof(Node));
+    Wide values[kLanes];
+    // Without the place: as floats its whole numbers are so small that they take long.
+    const auto of = [&](int corner, int lane) __attribute__((always_inline)) {
+        return Wide(_mm512_maskz_loadu_ps(0xfff0, &corners.node(corner, lane))) * shares_of[corner][lane];
+    };
+    for (int lane = 0; lane < kLanes; ++lane) values[lane] = of(0, lane) + of(1, lane) + of(2, lane);
+    transpose(values);
+    for (int i = 0; i < 8; ++i) from_normal[i] = values[4 + i];
+    for (int i = 0; i < 4; ++i) from_light[i] = values[12 + i];
+#else
+    Eight rows[kLanes];
+    Four lights[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+        const Node &a = corners.node(0, lane), &b = corners.node(1, lane), &c = corners.node(2, lane);
+        const float u = shares_of[0][lane], v = shares_of[1][lane], w = shares_of[2][lane];
+        rows[lane] = load<Eight>(a.normal) * u + load<Eight>(b.normal) * v + load<Eight>(c.normal) * w;
+        lights[lane] = load<Four>(&a.light) * u + load<Four>(&b.light) * v + load<Four>(&c.light) * w;
+    }
+    turn(rows, from_normal);
+    turn(lights, from_light);
+#endif
+}
+
+// At the middles of the fragments' pixels.
 VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt x, WideInt y) {
     const Corners corners(scene, facets);
     Wide shares[3];
     share_out(corners, x, y, shares);
-    float shares_of[3][8];
-    for (int i = 0; i < 3; ++i) store(shares_of[i], shares[i]);
-    Wide places[8];
-    Four lights[8];
-    for (int lane = 0; lane < 8; ++lane) {
-        const Node &a = corners.node(0, lane), &b = corners.node(1, lane), &c = corners.node(2, lane);
-        const float u = shares_of[0][lane], v = shares_of[1][lane], w = shares_of[2][lane];
-        places[lane] = load<Wide>(a.normal) * u + load<Wide>(b.normal) * v + load<Wide>(c.normal) * w;
-        lights[lane] = load<Four>(&a.light) * u + load<Four>(&b.light) * v + load<Four>(&c.light) * w;
-    }
-    transpose(places);
-    Wide light[4];
-    turn(lights, light);
-    Wide texels[8];
-    fetch(corners.levels, places[6], places[7], texels);
-    return {{places[0], places[1], places[2]},
-            {places[3], places[4], places[5]},
+    Wide from_normal[8], from_light[4];
+    sum_up(corners, shares, from_normal, from_light);
+    Wide texel[8];
+    fetch(corners.levels, from_normal[6], from_normal[7], texel);
+    return {{from_normal[0], from_normal[1], from_normal[2]},
+            {from_normal[3], from_normal[4], from_normal[5]},
             way_to_camera(scene, __builtin_convertvector(x, Wide), __builtin_convertvector(y, Wide)),
-            light[2],
-            light[0],
-            light[1],
-            {texels[0], texels[1], texels[2]},
-            texels[3],
-            texels[4],
-            texels[5],
-            texels[6],
-            texels[7]};
+            from_light[2],
+            from_light[0],
+            from_light[1],
+            {texel[0], texel[1], texel[2]},
+            texel[3],
+            texel[4],
+            texel[5],
+            texel[6],
+            texel[7]};
 }
 
 }  // namespace

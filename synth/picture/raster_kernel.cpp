@@ -3,6 +3,7 @@
 #include "synth/picture/raster_set_up.hpp"
 #include "synth/picture/raster_shading.hpp"
 #include "synth/picture/raster_triangles.hpp"
+#include "synth/picture/raster_turn.hpp"
 #include "synth/picture/raster_wide.hpp"
 
 namespace viaface::raster::VIAFACE_KERNEL {
@@ -90,12 +91,12 @@ class StripeDrawing {
         return scene_.facets[facet].inside ? common(bounds, scene_.opening) : bounds;
     }
 
-    static VIAFACE_INLINE void keep_nearer(const Front& front, std::ptrdiff_t at, WideInt id, WideInt outside,
-                                           Wide nearness) {
-        const auto before = load<Wide>(front.nearness + at);
-        const WideInt in_front = (outside >= 0) & (nearness > before);
+    static VIAFACE_INLINE void keep_nearer(const Front& front, std::ptrdiff_t at, EightInt id,
+                                           EightInt outside, Eight nearness) {
+        const auto before = load<Eight>(front.nearness + at);
+        const EightInt in_front = (outside >= 0) & (nearness > before);
         store(front.nearness + at, in_front ? nearness : before);
-        store(front.seen + at, in_front ? id : load<WideInt>(front.seen + at));
+        store(front.seen + at, in_front ? id : load<EightInt>(front.seen + at));
     }
 
     // What is in front. The first of the lashes.
@@ -105,7 +106,7 @@ class StripeDrawing {
             prefetch(i + kAhead);
             if (scene_.facets[facet].shade == Shade::kLash) return i;
             const Bounds bounds = bounds_of(facet);
-            const WideInt id = wide(std::int32_t(facet + 1) | (scene_.still[facet] != 0 ? 0 : kNotStill));
+            const EightInt id = eight(std::int32_t(facet + 1) | (scene_.still[facet] != 0 ? 0 : kNotStill));
             if (!scene_.facets[facet].fine) {
                 settle_middles(facet, bounds, id);
                 if (!any_fine(bounds)) continue;
@@ -123,7 +124,7 @@ class StripeDrawing {
         __builtin_prefetch(scene_.triangles.boxes + facet);
     }
 
-    VIAFACE_INLINE void settle_middles(std::uint32_t facet, const Bounds& bounds, WideInt id) {
+    VIAFACE_INLINE void settle_middles(std::uint32_t facet, const Bounds& bounds, EightInt id) {
         const Triangle& triangle = scene_.triangles.triangles[facet];
         const std::int32_t row = scene_.width + kPixelsBeyond;
         const auto visit = [&](Walk walk, const Bounds& block) __attribute__((always_inline)) {
@@ -143,7 +144,7 @@ class StripeDrawing {
         for_blocks(scene_, facet, bounds, kMiddles, visit);
     }
 
-    VIAFACE_INLINE void settle_samples(std::uint32_t facet, const Bounds& bounds, WideInt id) {
+    VIAFACE_INLINE void settle_samples(std::uint32_t facet, const Bounds& bounds, EightInt id) {
         const Triangle& triangle = scene_.triangles.triangles[facet];
         const auto visit = [&](Walk walk, const Bounds& block) __attribute__((always_inline)) {
             const std::uint32_t within = ~(~0u << (block.right - block.left));
@@ -151,7 +152,7 @@ class StripeDrawing {
                 Walk there = walk;
                 std::int32_t at = sample(block.left, y);
                 for (std::uint32_t left = fine(block.left, y) & within; left != 0; left >>= 2) {
-                    const WideInt outside = there.outside();
+                    const EightInt outside = there.outside();
                     if ((left & 3) != 0 && negative_lanes(outside) != 0xff)
                         keep_nearer(scratch_.samples, at, id, outside, there.nearness(triangle));
                     there.go_right(2.0f);
@@ -184,18 +185,18 @@ class StripeDrawing {
     // Those of eight pixels that have a bit in `coarse`.
     VIAFACE_INLINE void resolve_middles(std::int32_t x, std::int32_t y, unsigned coarse) {
         const std::int32_t* const seen = scratch_.middles.seen + middle_of(x, y);
-        if (x + 8 <= bounds_.right) return resolve_eight(x, y, coarse, load<WideInt>(seen));
+        if (x + 8 <= bounds_.right) return resolve_eight(x, y, coarse, load<EightInt>(seen));
         for (; coarse != 0; coarse &= coarse - 1) {
             const int i = __builtin_ctz(coarse);
             resolve_alone(x + i, y, seen[i]);
         }
     }
 
-    VIAFACE_INLINE void resolve_eight(std::int32_t x, std::int32_t y, unsigned coarse, WideInt seen) {
-        constexpr WideInt kBits = {1, 2, 4, 8, 16, 32, 64, 128};
+    VIAFACE_INLINE void resolve_eight(std::int32_t x, std::int32_t y, unsigned coarse, EightInt seen) {
+        constexpr EightInt kBits = {1, 2, 4, 8, 16, 32, 64, 128};
         const std::int32_t at = shading_.at(x, y);
-        const WideInt chosen = (kBits & std::int32_t(coarse)) != 0, facets = seen & kFacetBits;
-        const auto before = load<WideInt>(scene_.alone + at);
+        const EightInt chosen = (kBits & std::int32_t(coarse)) != 0, facets = seen & kFacetBits;
+        const auto before = load<EightInt>(scene_.alone + at);
         store(scene_.alone + at, chosen ? facets : before);
         const unsigned bare = negative_lanes(seen == 0) & coarse;
         for (unsigned left = bare; left != 0; left &= left - 1) {
@@ -236,7 +237,7 @@ class StripeDrawing {
         Four planes[kSamples];
         for (int i = 0; i < kSamples; ++i)
             planes[i] = load<Four>(&scene_.triangles.triangles[larger(facet_of(samples[i]), 0)].nearness);
-        transpose(planes);
+        transpose_fours(planes);
         const Four reach = scene_.step * near, fold = scene_.fold * near;
         unsigned left = negative_lanes(seen != 0);
         const std::int32_t at = shading_.at(x, y);
@@ -276,8 +277,8 @@ class StripeDrawing {
         for (std::int32_t y = block.bottom; y < block.top; ++y) {
             Walk there = walk;
             for (std::int32_t x = block.left; x < block.right; x += 2) {
-                const Wide before = load<Wide>(scratch_.samples.nearness + sample(x, y));
-                const WideInt in_front = (there.outside() >= 0) & (there.nearness(triangle) > before);
+                const Eight before = load<Eight>(scratch_.samples.nearness + sample(x, y));
+                const EightInt in_front = (there.outside() >= 0) & (there.nearness(triangle) > before);
                 const unsigned lanes = negative_lanes(in_front);
                 lay(x, y, facet, __builtin_popcount(lanes & 15));
                 if (x + 1 < block.right) lay(x + 1, y, facet, __builtin_popcount(lanes >> 4));
@@ -301,14 +302,6 @@ class StripeDrawing {
     std::int32_t mixed_ = 0;
     std::uint64_t fine_columns_[kMostFineWords];  // of all rows of the stripe
 };
-
-void set_up(const Scene& scene, int first, int end) {
-    for (int i = first; i < end; i += 8) {
-        std::uint64_t still;
-        __builtin_memcpy(&still, scene.still + i, sizeof still);
-        if (still != 0x0101010101010101) SettingUp(scene, i).write();
-    }
-}
 
 void draw(const Scene& scene, const Stripe& stripe, const Scratch& scratch) {
     StripeDrawing(scene, stripe, scratch).draw();

@@ -56,7 +56,7 @@ std::vector<raster::Facet> facets_of(const Face& face) {
                               material != Material::kSkin});
         }
     }
-    while (facets.size() % 8 != 0)
+    while (facets.size() % raster::kFacetsAtOnce != 0)
         facets.push_back({{0, 0, 0}, 0, 0, raster::Shade::kCloth, false, false, false});
     return facets;
 }

@@ -10,7 +10,8 @@
 
 namespace viaface {
 
-// In the order in which they are drawn, filled up to a multiple of eight by facets that are never seen.
+// In the order in which they are drawn, filled up to a multiple of kFacetsAtOnce by facets that are never
+// seen.
 std::vector<raster::Facet> facets_of(const Face& face);
 
 class RasterNodes {

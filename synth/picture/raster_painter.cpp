@@ -19,11 +19,16 @@ using Eigen::Vector3f;
 constexpr float kFold = 1.0f;   // slope, depth per width
 constexpr float kStep = 0.75f;  // pixels
 
-const raster::Kernel& kernel_of(Instructions instructions) {
-#ifdef VIAFACE_AVX2_KERNEL
-    if (instructions == Instructions::kBest && __builtin_cpu_supports("avx2")) return raster::avx2::kKernel;
+const raster::Kernel& kernel_of(Instructions widest) {
+#ifdef VIAFACE_AVX512_KERNEL
+    const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    if (widest >= Instructions::kAvx512 && has_avx512) return raster::avx512::kKernel;
 #endif
-    static_cast<void>(instructions);
+#ifdef VIAFACE_AVX2_KERNEL
+    if (widest >= Instructions::kAvx2 && __builtin_cpu_supports("avx2")) return raster::avx2::kKernel;
+#endif
+    static_cast<void>(widest);
     return raster::baseline::kKernel;
 }
 
@@ -77,7 +82,7 @@ raster::Bounds bounds_of(std::span<const Rect> rects) {
 
 class RasterPainter : public Painter {
   public:
-    RasterPainter(const Face& face, const Surfaces& surfaces, const View& view, Instructions instructions,
+    RasterPainter(const Face& face, const Surfaces& surfaces, const View& view, Instructions widest,
                   WorkPool& pool)
         : facets_(facets_of(face)),
           nodes_(face, view),
@@ -86,7 +91,7 @@ class RasterPainter : public Painter {
           of_facets_(facets_.size()),
           fine_(facets_, face.weld, view.width, view.height),
           lists_(view.height),
-          kernel_(kernel_of(instructions)),
+          kernel_(kernel_of(widest)),
           pool_(pool),
           workspaces_(pool.threads(), Workspace(view.width)) {
         prepare_textures(surfaces);
@@ -191,8 +196,8 @@ class RasterPainter : public Painter {
 }  // namespace
 
 std::unique_ptr<Painter> make_raster_painter(const Face& face, const Surfaces& surfaces, const View& view,
-                                             Instructions instructions, WorkPool& pool) {
-    return std::make_unique<RasterPainter>(face, surfaces, view, instructions, pool);
+                                             Instructions widest, WorkPool& pool) {
+    return std::make_unique<RasterPainter>(face, surfaces, view, widest, pool);
 }
 
 }  // namespace viaface

@@ -2,15 +2,15 @@
 // instruction set and may share no inline function with the rest of the program but those that are always
 // inlined.
 //
-// Facets are set up as triangles of the picture, eight at a time, where they have moved. Then stripes of rows
-// are drawn, each in three steps. Triangles first settle what is in front (a visibility buffer:
-// C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach to deferred shading", JCGT
-// 2(2), 2013): in the middle of each pixel, and at four samples of the fine pixels, in which more than one
-// surface may be seen (FinePixels). Then each pixel is shaded once for every surface that it sees, eight
-// fragments at a time, but for pixels that hold one triangle alone, now and before, which has not moved:
-// they keep their colour. Of fine pixels, triangles that continue each other count as one surface, so that
-// edges are as smooth as with multisampling. Last come the lashes, blended in their order. Departures: no
-// clipping; a triangle with a corner outside kGuard or behind the camera is not drawn.
+// Facets are set up as triangles of the picture, several at a time, where they have moved. Then stripes of
+// rows are drawn, each in three steps. Triangles first settle what is in front (a visibility buffer: C. A.
+// Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach to deferred shading", JCGT 2(2),
+// 2013): in the middle of each pixel, and at four samples of the fine pixels, in which more than one surface
+// may be seen (FinePixels). Then each pixel is shaded once for every surface that it sees, eight or sixteen
+// fragments at a time, but for pixels that hold one triangle alone, now and before, which has not moved: they
+// keep their colour. Of fine pixels, triangles that continue each other count as one surface, so that edges
+// are as smooth as with multisampling. Last come the lashes, blended in their order. Departures: no clipping;
+// a triangle with a corner outside kGuard or behind the camera is not drawn.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,7 @@ inline constexpr int kSteps = 128;   // per pixel: the grid on which corners lie
 inline constexpr int kGuard = 8192;  // pixels from the middle of the picture, either way
 inline constexpr int kLevels = 13;
 inline constexpr int kMostFineWords = 65;  // of a row: 4096 pixels, and one that is over
+inline constexpr int kFacetsAtOnce = 16;   // the most that a kernel sets up together
 inline constexpr int kPixelsBeyond = 7;    // the last of eight pixels at a time may lie outside the picture
 
 struct Place {
@@ -113,7 +114,7 @@ struct Triangles {
 
 struct Scene {
     const Node* nodes;
-    Facet* facets;  // a multiple of eight
+    Facet* facets;  // a multiple of kFacetsAtOnce
     const TexelWays* texel_ways;
     Triangles triangles;
     const Level* levels;  // [materials x kLevels], the coarsest repeated
@@ -152,7 +153,8 @@ struct Scratch {
 };
 
 struct Kernel {
-    // Of the facets from `first`, a multiple of eight, to `end`; eights that are all still stay as they are.
+    // Of the facets from `first` to `end`, multiples of kFacetsAtOnce, those that are not still, and some
+    // more.
     void (*set_up)(const Scene& scene, int first, int end);
     void (*draw)(const Scene& scene, const Stripe& stripe, const Scratch& scratch);
 };
@@ -161,6 +163,9 @@ namespace baseline {
 extern const Kernel kKernel;
 }
 namespace avx2 {
+extern const Kernel kKernel;
+}
+namespace avx512 {
 extern const Kernel kKernel;
 }
 

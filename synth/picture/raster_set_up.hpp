@@ -1,7 +1,8 @@
-// Facets as triangles of the picture, eight at a time. For raster_kernel.cpp alone.
+// Facets as triangles of the picture, kLanes at a time. For raster_kernel.cpp alone.
 #pragma once
 
 #include "synth/picture/raster_scene.hpp"
+#include "synth/picture/raster_turn.hpp"
 #include "synth/picture/raster_wide.hpp"
 
 namespace viaface::raster::VIAFACE_KERNEL {
@@ -15,8 +16,8 @@ struct Corner {
     Wide nearness;
 
     VIAFACE_INLINE Corner(const Scene& scene, int first, int corner) {
-        Four rows[8];
-        for (int lane = 0; lane < 8; ++lane)
+        Four rows[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane)
             rows[lane] = load<Four>(&scene.nodes[scene.facets[first + lane].node[corner]].place);
         Wide columns[4];
         turn(rows, columns);
@@ -62,15 +63,15 @@ class SettingUp {
     }
 
     VIAFACE_INLINE void write() const {
-        Four firsts[8], rights[8], ups[8], planes[8], boxes[8];
+        Four firsts[kLanes], rights[kLanes], ups[kLanes], planes[kLanes], boxes[kLanes];
         turn({Wide(starts_[0]), Wide(starts_[1]), Wide(starts_[2]), Wide(small_)}, firsts);
         turn({Wide(edges_[0].right), Wide(edges_[1].right), Wide(edges_[2].right), Wide{}}, rights);
         turn({Wide(edges_[0].up), Wide(edges_[1].up), Wide(edges_[2].up), Wide{}}, ups);
         turn({nearness_, nearness_right_, nearness_up_, __builtin_convertvector(material_, Wide)}, planes);
         turn({Wide(left_), Wide(bottom_), Wide(right_), Wide(top_)}, boxes);
-        std::int32_t levels_of[8];
+        std::int32_t levels_of[kLanes];
         store(levels_of, levels());
-        for (int lane = 0; lane < 8; ++lane) {
+        for (int lane = 0; lane < kLanes; ++lane) {
             scene_.facets[first_ + lane].level = levels_of[lane];
             Triangle& triangle = scene_.triangles.triangles[first_ + lane];
             store(triangle.first, firsts[lane]);
@@ -95,8 +96,8 @@ class SettingUp {
     VIAFACE_INLINE void face_camera() {
         const auto& [a, b, c] = corners_;
         area_ = edges_[2].at(c.x - a.x, c.y - a.y, small_).number;
-        std::int32_t sides[8], materials[8];
-        for (int lane = 0; lane < 8; ++lane) {
+        std::int32_t sides[kLanes], materials[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane) {
             const Facet& facet = scene_.facets[first_ + lane];
             sides[lane] = -std::int32_t(facet.two_sided), materials[lane] = facet.material;
         }
@@ -127,8 +128,8 @@ class SettingUp {
 
     // Those whose texels are nearest to a pixel in size, along the axis where they are most.
     VIAFACE_INLINE WideInt levels() const {
-        Four rows[8];
-        for (int lane = 0; lane < 8; ++lane) rows[lane] = load<Four>(scene_.texel_ways + first_ + lane);
+        Four rows[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane) rows[lane] = load<Four>(scene_.texel_ways + first_ + lane);
         Wide ways[4];
         turn(rows, ways);
         const Wide most = greater(squared_way(edges_[1].right, edges_[2].right, ways),
@@ -157,6 +158,21 @@ class SettingUp {
     WideInt starts_[3];
     Wide nearness_{}, nearness_right_{}, nearness_up_{};
 };
+
+static_assert(kFacetsAtOnce % kLanes == 0);
+
+VIAFACE_INLINE bool all_still(const std::uint8_t* facets) {
+    std::uint64_t eights[kLanes / 8], all = ~std::uint64_t{0};
+    __builtin_memcpy(eights, facets, sizeof eights);
+    for (const std::uint64_t still : eights) all &= still;
+    return all == 0x0101010101010101;
+}
+
+void set_up(const Scene& scene, int first, int end) {
+    for (int i = first; i < end; i += kLanes) {
+        if (!all_still(scene.still + i)) SettingUp(scene, i).write();
+    }
+}
 
 }  // namespace
 }  // namespace viaface::raster::VIAFACE_KERNEL

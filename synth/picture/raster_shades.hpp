@@ -1,9 +1,10 @@
-// The fragment shaders of shaders.cpp, eight fragments at a time; sources and departures in shading.hpp. For
+// The fragment shaders of shaders.cpp, kLanes fragments at a time; sources and departures in shading.hpp. For
 // raster_kernel.cpp alone.
 #pragma once
 
 #include "synth/picture/lights.hpp"
 #include "synth/picture/raster_fragments.hpp"
+#include "synth/picture/raster_threes.hpp"
 #include "synth/picture/raster_wide.hpp"
 
 namespace viaface::raster::VIAFACE_KERNEL {

@@ -1,4 +1,4 @@
-// Fragments on their way to colours: they wait until there are eight of a kind. For raster_kernel.cpp alone.
+// Fragments on their way to colours: they wait until there are kLanes of a kind. For raster_kernel.cpp alone.
 #pragma once
 
 #include "synth/picture/raster_fragments.hpp"
@@ -42,16 +42,16 @@ class Shading {
     }
 
     // All samples of those of eight pixels that have a bit in `lanes`; facets of the skin.
-    VIAFACE_INLINE void push_skin(std::int32_t x, std::int32_t y, WideInt facets, unsigned lanes) {
-        constexpr WideInt kLanes = {0, 1, 2, 3, 4, 5, 6, 7};
+    VIAFACE_INLINE void push_skin(std::int32_t x, std::int32_t y, EightInt facets, unsigned lanes) {
+        constexpr EightInt kPlaces = {0, 1, 2, 3, 4, 5, 6, 7};
         Queue& queue = queues_[int(Shade::kSkin)];
         const int to = queue.count;
-        const WideInt right = packed(kLanes, lanes);
+        const EightInt right = packed(kPlaces, lanes);
         store(queue.x + to, right + x);
-        store(queue.y + to, wide(y));
+        store(queue.y + to, eight(y));
         store(queue.at + to, right + at(x, y));
         store(queue.facet + to, packed(facets, lanes));
-        store(queue.samples + to, wide(kSamples));
+        store(queue.samples + to, eight(kSamples));
         queue.count += __builtin_popcount(lanes);
         if (queue.count >= kAtOnce) flush<Shade::kSkin>();
     }
@@ -63,7 +63,7 @@ class Shading {
     }
 
   private:
-    static constexpr int kAtOnce = 8;
+    static constexpr int kAtOnce = kLanes;
     struct Queue {
         std::int32_t x[2 * kAtOnce], y[2 * kAtOnce], at[2 * kAtOnce];
         std::int32_t facet[2 * kAtOnce], samples[2 * kAtOnce];

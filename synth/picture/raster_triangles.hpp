@@ -11,7 +11,7 @@ constexpr int kBlock = 16;  // pixels: edge functions stay within 32 bits
 
 // Places of the lanes of a vector, in eighths of a pixel from the first pixel's middle.
 struct Lanes {
-    WideInt right, up;
+    EightInt right, up;
     std::int32_t pixels;
 };
 constexpr Lanes kMiddles = {{0, 8, 16, 24, 32, 40, 48, 56}, {}, 8};
@@ -44,27 +44,27 @@ VIAFACE_INLINE FourInt starts_at(const Scene& scene, std::uint32_t facet, std::i
 
 // Rows of vectors over a block of a triangle, from below.
 struct Walk {
-    WideInt edges[3];     // below zero in the lanes of places that are not within the triangle
-    WideInt right[3];     // from a vector to the next
-    WideInt up[3];        // from a row to the next
-    Wide across, height;  // pixels from the middle of the box's lower left pixel
+    EightInt edges[3];     // below zero in the lanes of places that are not within the triangle
+    EightInt right[3];     // from a vector to the next
+    EightInt up[3];        // from a row to the next
+    Eight across, height;  // pixels from the middle of the box's lower left pixel
 
     VIAFACE_INLINE Walk(const Scene& scene, std::uint32_t facet, const Lanes& lanes, std::int32_t x,
                         std::int32_t y)
-        : across(__builtin_convertvector(lanes.right, Wide) * 0.125f +
+        : across(__builtin_convertvector(lanes.right, Eight) * 0.125f +
                  float(x - scene.triangles.boxes[facet].left)),
-          height(__builtin_convertvector(lanes.up, Wide) * 0.125f +
+          height(__builtin_convertvector(lanes.up, Eight) * 0.125f +
                  float(y - scene.triangles.boxes[facet].bottom)) {
         const Triangle& t = scene.triangles.triangles[facet];
         const FourInt starts = starts_at(scene, facet, x, y);
         for (int i = 0; i < 3; ++i) {
-            edges[i] = wide(starts[i]) + lanes.right * t.right[i] + lanes.up * t.up[i];
-            right[i] = wide(8 * lanes.pixels * t.right[i]);
-            up[i] = wide(8 * t.up[i]);
+            edges[i] = eight(starts[i]) + lanes.right * t.right[i] + lanes.up * t.up[i];
+            right[i] = eight(8 * lanes.pixels * t.right[i]);
+            up[i] = eight(8 * t.up[i]);
         }
     }
 
-    VIAFACE_INLINE WideInt outside() const { return edges[0] | edges[1] | edges[2]; }
+    VIAFACE_INLINE EightInt outside() const { return edges[0] | edges[1] | edges[2]; }
     VIAFACE_INLINE void go_right(float pixels) {
         for (int i = 0; i < 3; ++i) edges[i] += right[i];
         across += pixels;
@@ -73,7 +73,7 @@ struct Walk {
         for (int i = 0; i < 3; ++i) edges[i] += up[i];
         height += 1.0f;
     }
-    VIAFACE_INLINE Wide nearness(const Triangle& t) const {
+    VIAFACE_INLINE Eight nearness(const Triangle& t) const {
         return t.nearness_up * height + t.nearness + t.nearness_right * across;
     }
 };

@@ -36,8 +36,9 @@ std::vector<std::uint8_t> drawn(const Face& face, const View& view, const Drawin
 TEST(Raster, EveryInstructionSetGivesTheSameBytes) {
     const Face face = painted_balls();
     for (const View& view : kViews) {
-        EXPECT_EQ(drawn(face, view, {.instructions = Instructions::kBest}),
-                  drawn(face, view, {.instructions = Instructions::kBaseline}));
+        const auto baseline = drawn(face, view, {.widest = Instructions::kBaseline});
+        for (const Instructions widest : {Instructions::kAvx2, Instructions::kAvx512})
+            EXPECT_EQ(drawn(face, view, {.widest = widest}), baseline);
     }
 }
 
@@ -59,9 +60,8 @@ TEST(Raster, DrawsTheTalkerAsTheReferenceDoes) {
         const auto reference = bytes(Portrait(face, view, {.renderer = Renderer::kOsmesa}).draw(face.rest));
         const auto best = bytes(Portrait(face, view).draw(face.rest));
         EXPECT_GT(psnr(best, reference), 38);
-        EXPECT_EQ(bytes(Portrait(face, view, {.threads = 1, .instructions = Instructions::kBaseline})
-                            .draw(face.rest)),
-                  best);
+        for (const Instructions widest : {Instructions::kBaseline, Instructions::kAvx2})
+            EXPECT_EQ(bytes(Portrait(face, view, {.threads = 1, .widest = widest}).draw(face.rest)), best);
     }
 }
 
