@@ -72,6 +72,8 @@ struct Corners {
         for (int i = 0; i < 3; ++i) store(offsets[i], WideInt(columns[i]) * std::int32_t(sizeof(Node)));
         std::uint32_t level[kLanes];
         store(level, WideInt(columns[3]) * std::int32_t(sizeof(Level)));
+        asm volatile(""
+                     : "+m"(offsets), "+m"(level));  // or compilers take them out of vectors, which is slower
         for (int lane = 0; lane < kLanes; ++lane)
             levels[lane] = reinterpret_cast<const Level*>(reinterpret_cast<const std::byte*>(scene.levels) +
                                                           level[lane]);
