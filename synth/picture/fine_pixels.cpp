@@ -28,7 +28,6 @@ FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const in
     : words_((width + 63) / 64 + 1), bits_(std::size_t(words_) * height) {
     std::map<std::pair<int, int>, std::size_t> known;  // edges by their welded nodes
     for (int i = 0; i < int(facets.size()); ++i) {
-        if (facets[i].fine) covering_.push_back(i);
         if (facets[i].shade != raster::Shade::kSkin) continue;
         for (int k = 0; k < 3; ++k) {
             const int from = facets[i].node[k], to = facets[i].node[(k + 1) % 3];
@@ -42,16 +41,29 @@ FinePixels::FinePixels(std::span<const raster::Facet> facets, std::span<const in
     std::erase_if(edges_, [&](const Edge& edge) {
         return std::ranges::none_of(edge.facets, [&](int i) { return i != kNone && !facets[i].fine; });
     });
+    outlines_.resize(WorkPool::pieces(int(edges_.size())));
 }
 
-void FinePixels::find(const Visible& visible) {
+void FinePixels::find_outlines(std::span<const std::uint8_t> seen, WorkPool& pool) {
+    pool.share_rows(int(edges_.size()), [&](int first, int end, int) {
+        std::vector<int>& outlines = outlines_[first / WorkPool::kRowsAtOnce];
+        outlines.clear();
+        for (int i = first; i < end; ++i) {
+            const auto [one, other] = edges_[i].facets;
+            if ((seen[one] != 0) != (other != kNone && seen[other] != 0)) outlines.push_back(i);
+        }
+    });
+}
+
+void FinePixels::mark(std::span<const raster::Node> nodes, VisibleFacets visible, const Bounds& drawn) {
     std::ranges::fill(bits_, 0);
-    for (const auto& [from, to, facets] : edges_) {
-        const bool first = visible.seen[facets[0]], second = facets[1] != kNone && visible.seen[facets[1]];
-        if (first != second) mark_outline(visible.nodes[from].place, visible.nodes[to].place, visible.drawn);
+    for (const std::vector<int>& piece : outlines_) {
+        for (const int i : piece) mark_outline(nodes[edges_[i].from].place, nodes[edges_[i].to].place, drawn);
     }
-    for (const int i : covering_) {
-        if (visible.seen[i]) mark(box_of(visible, i));
+    for (const std::vector<VisibleFacet>& piece : visible) {
+        for (const VisibleFacet& one : piece) {
+            if (one.fine) mark(one.box);
+        }
     }
 }
 

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "synth/picture/raster_scene.hpp"
-#include "synth/picture/stripe_lists.hpp"
+#include "synth/picture/visible_facets.hpp"
+#include "synth/picture/work_pool.hpp"
 
 namespace viaface {
 
@@ -17,7 +18,10 @@ class FinePixels {
     // `weld` gives for each node the one that stands for all at its place.
     FinePixels(std::span<const raster::Facet> facets, std::span<const int> weld, int width, int height);
 
-    void find(const Visible& visible);  // of the facets given at first, where something is drawn
+    // First, by several threads, which edges are outlines; `seen` is of the facets given at first.
+    void find_outlines(std::span<const std::uint8_t> seen, WorkPool& pool);
+    // Then the pixels, where something is drawn.
+    void mark(std::span<const raster::Node> nodes, VisibleFacets visible, const raster::Bounds& drawn);
 
     // [height x words], a bit for each pixel, the lowest first; one word is over in each row.
     const std::vector<std::uint64_t>& bits() const { return bits_; }
@@ -34,7 +38,7 @@ class FinePixels {
     void mark(const raster::Bounds& box);  // within the picture
 
     std::vector<Edge> edges_;
-    std::vector<int> covering_;  // facets that are fine throughout
+    std::vector<std::vector<int>> outlines_;  // edges, piece by piece
     int words_;
     std::vector<std::uint64_t> bits_;
 };

@@ -104,13 +104,12 @@ class Portrait::Impl {
     }
 
     std::vector<Rect> changed() {
-        const int parts = int(bands_.size()), outside = int(outside_mouth_.size());
-        pool_->share(parts, [&](int part, int) {
-            for (int i = part * outside / parts; i < (part + 1) * outside / parts; ++i) {
-                if (moved(outside_mouth_[i])) bands_[part].mark(swept(outside_mouth_[i]));
+        pool_->share_rows(int(outside_mouth_.size()), [&](int first, int end, int thread) {
+            for (int i = first; i < end; ++i) {
+                if (moved(outside_mouth_[i])) bands_[thread].mark(swept(outside_mouth_[i]));
             }
         });
-        for (int part = 1; part < parts; ++part) bands_[0].take_from(bands_[part]);
+        for (std::size_t i = 1; i < bands_.size(); ++i) bands_[0].take_from(bands_[i]);
         const Extent opening = posed_.mouth().swept_opening();
         const auto moved_inside = [&](const Triangle& t) { return moved(t); };
         if (posed_.mouth().opening_changed() || std::ranges::any_of(posed_.mouth().triangles(), moved_inside))

@@ -119,16 +119,16 @@ void PosedVertices::pose(const Nodes& posed, WorkPool& pool) {
     if (!sum_is_finite && !posed.allFinite())
         throw std::invalid_argument("a pose with places that are not finite");
     const auto for_nodes = [&](const auto& work) {
-        pool.share_rows(int(nodes_.size()), [&](int first, int end) {
+        pool.share_rows(int(nodes_.size()), [&](int first, int end, int) {
             for (int i = first; i < end; ++i) work(nodes_[i]);
         });
     };
     for_nodes([&](int node) { place(posed, node); });
-    const int parts = 2 * pool.threads(), triangles = node_normals_.triangles();
-    pool.share(1 + parts, [&](int item, int) {
+    const int triangles = node_normals_.triangles();
+    pool.share(1 + WorkPool::pieces(triangles), [&](int item, int) {
         if (item == 0) return mouth_.look(pixels_, swept_);
-        for (int i = (item - 1) * triangles / parts; i < item * triangles / parts; ++i)
-            node_normals_.turn(i, places_, moved_);
+        const int end = std::min(triangles, item * WorkPool::kRowsAtOnce);
+        for (int i = (item - 1) * WorkPool::kRowsAtOnce; i < end; ++i) node_normals_.turn(i, places_, moved_);
     });
     for_nodes([&](int node) { turn(node); });
     mouth_light_.compute(places_, normals_, mouth_.nodes(), pool, light_);

@@ -114,9 +114,9 @@ VIAFACE_INLINE Three way_to_camera(const Scene& scene, Wide x, Wide y) {
                  eye[0][2] + x * eye[1][2] + y * eye[2][2]});
 }
 
-// The sum of the corners' numbers, each by its share: eight from Node::normal on, four from Node::light on.
+// The sum of the corners' numbers, each by its share: eight from Node::normal on, four from Node::s on.
 VIAFACE_INLINE void sum_up(const Corners& corners, const Wide (&shares)[3], Wide (&from_normal)[8],
-                           Wide (&from_light)[4]) {
+                           Wide (&from_s)[4]) {
     float shares_of[3][kLanes];
     for (int i = 0; i < 3; ++i) store(shares_of[i], shares[i]);
 #if defined(__AVX512F__)
@@ -129,18 +129,18 @@ VIAFACE_INLINE void sum_up(const Corners& corners, const Wide (&shares)[3], Wide
     for (int lane = 0; lane < kLanes; ++lane) values[lane] = of(0, lane) + of(1, lane) + of(2, lane);
     transpose(values);
     for (int i = 0; i < 8; ++i) from_normal[i] = values[4 + i];
-    for (int i = 0; i < 4; ++i) from_light[i] = values[12 + i];
+    for (int i = 0; i < 4; ++i) from_s[i] = values[12 + i];
 #else
     Eight rows[kLanes];
-    Four lights[kLanes];
+    Four last[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
         const Node &a = corners.node(0, lane), &b = corners.node(1, lane), &c = corners.node(2, lane);
         const float u = shares_of[0][lane], v = shares_of[1][lane], w = shares_of[2][lane];
         rows[lane] = load<Eight>(a.normal) * u + load<Eight>(b.normal) * v + load<Eight>(c.normal) * w;
-        lights[lane] = load<Four>(&a.light) * u + load<Four>(&b.light) * v + load<Four>(&c.light) * w;
+        last[lane] = load<Four>(&a.s) * u + load<Four>(&b.s) * v + load<Four>(&c.s) * w;
     }
     turn(rows, from_normal);
-    turn(lights, from_light);
+    turn(last, from_s);
 #endif
 }
 
@@ -149,16 +149,16 @@ VIAFACE_INLINE Lit light(const Scene& scene, const std::int32_t* facets, WideInt
     const Corners corners(scene, facets);
     Wide shares[3];
     share_out(corners, x, y, shares);
-    Wide from_normal[8], from_light[4];
-    sum_up(corners, shares, from_normal, from_light);
+    Wide from_normal[8], from_s[4];
+    sum_up(corners, shares, from_normal, from_s);
     Wide texel[8];
-    fetch(corners.levels, from_normal[6], from_normal[7], texel);
+    fetch(corners.levels, from_s[0], from_s[1], texel);
     return {{from_normal[0], from_normal[1], from_normal[2]},
             {from_normal[3], from_normal[4], from_normal[5]},
             way_to_camera(scene, __builtin_convertvector(x, Wide), __builtin_convertvector(y, Wide)),
-            from_light[2],
-            from_light[0],
-            from_light[1],
+            from_s[2],
+            from_normal[6],
+            from_normal[7],
             {texel[0], texel[1], texel[2]},
             texel[3],
             texel[4],

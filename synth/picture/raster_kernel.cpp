@@ -1,4 +1,5 @@
 // Compiled once per instruction set, which VIAFACE_KERNEL names.
+#include "synth/picture/raster_placing.hpp"
 #include "synth/picture/raster_scene.hpp"
 #include "synth/picture/raster_set_up.hpp"
 #include "synth/picture/raster_shading.hpp"
@@ -309,6 +310,6 @@ void draw(const Scene& scene, const Stripe& stripe, const Scratch& scratch) {
 
 }  // namespace
 
-const Kernel kKernel = {set_up, draw};
+const Kernel kKernel = {place, set_up, draw};
 
 }  // namespace viaface::raster::VIAFACE_KERNEL

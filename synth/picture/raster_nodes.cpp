@@ -1,7 +1,6 @@
 #include "synth/picture/raster_nodes.hpp"
 
-#include <Eigen/Geometry>
-#include <cmath>
+#include <array>
 
 #include "synth/picture/layers.hpp"
 
@@ -41,6 +40,28 @@ std::vector<std::uint8_t> lashes_of(const Face& face) {
     return lash;
 }
 
+template <int kRows>
+void copy_rows(const Eigen::Matrix4d& from, float (&to)[kRows][4]) {
+    for (int row = 0; row < kRows; ++row) {
+        for (int column = 0; column < 4; ++column) to[row][column] = static_cast<float>(from(row, column));
+    }
+}
+
+// All that the view alone tells.
+raster::Placing placing_of(const View& view) {
+    const Camera camera = camera_of(view);
+    raster::Placing placing{};
+    copy_rows(camera.world_from_head, placing.world_from_head);
+    copy_rows(camera.clip_from_world, placing.clip_from_world);
+    for (int i = 0; i < 3; ++i) placing.eye[i] = static_cast<float>(camera.place[i]);
+    placing.half_width = 0.5f * view.width;
+    placing.half_height = 0.5f * view.height;
+    placing.far = static_cast<float>(1 / camera.place.z());
+    placing.lashes_before = kLashesBefore;
+    placing.orthographic = camera.orthographic;
+    return placing;
+}
+
 }  // namespace
 
 std::vector<raster::Facet> facets_of(const Face& face) {
@@ -61,14 +82,8 @@ std::vector<raster::Facet> facets_of(const Face& face) {
     return facets;
 }
 
-RasterNodes::RasterNodes(const Face& face, const View& view)
-    : half_picture_(0.5f * view.width, 0.5f * view.height), lash_(lashes_of(face)), nodes_(face.rest.rows()) {
-    const Camera camera = camera_of(view);
-    orthographic_ = camera.orthographic;
-    far_ = static_cast<float>(1 / camera.place.z());
-    world_from_head_ = camera.world_from_head.cast<float>();
-    clip_from_world_ = camera.clip_from_world.cast<float>();
-    eye_ = camera.place.cast<float>();
+RasterNodes::RasterNodes(const Face& face, const View& view, const raster::Kernel& kernel)
+    : kernel_(kernel), lash_(lashes_of(face)), nodes_(face.rest.rows()) {
     NodesF normals;
     NodeNormals(face).compute(face.rest.cast<float>(), normals);
     tangents_ = rest_tangents(face, normals);
@@ -77,45 +92,23 @@ RasterNodes::RasterNodes(const Face& face, const View& view)
         nodes_[i].t = 1 - face.uvs(i, 1);
         nodes_[i].side = tangents_(i, 3);
     }
+    placing_ = placing_of(view);
+    placing_.tangents = tangents_.data();
+    placing_.lash = lash_.data();
+    placing_.nodes = nodes_.data();
 }
 
 void RasterNodes::place(const PosedVertices& posed, bool again, WorkPool& pool) {
-    pool.share_rows(int(nodes_.size()), [&](int first, int end) {
+    raster::Placing placing = placing_;
+    placing.vertices = posed.vertices().front().place;
+    pool.share_rows(int(nodes_.size()), [&](int first, int end, int) {
+        std::array<std::int32_t, WorkPool::kRowsAtOnce> changed;
+        int count = 0;
         for (int node = first; node < end; ++node) {
-            if (again && !posed.changed(node)) continue;
-            place(posed.vertices()[node], node);
-            if (!again || !posed.mouth().hidden(node)) light(posed.vertices()[node], node);
+            if (!again || posed.changed(node)) changed[count++] = node;
         }
+        kernel_.place(placing, changed.data(), count);
     });
-}
-
-void RasterNodes::place(const Vertex& v, int i) {
-    Vector3f world =
-        world_from_head_.topLeftCorner<3, 3>() * Vector3f(v.place) + world_from_head_.topRightCorner<3, 1>();
-    if (lash_[i]) world += kLashesBefore * (eye_ - world).normalized();
-    nodes_[i].place = place_of(clip_from_world_ * world.homogeneous(), world.z());
-}
-
-void RasterNodes::light(const Vertex& v, int i) {
-    const Eigen::Matrix3f turn = world_from_head_.topLeftCorner<3, 3>();
-    const Vector3f normal(v.normal), tangent = tangents_.row(i).head<3>().transpose();
-    const Vector3f along = (tangent - normal * normal.dot(tangent)).normalized();
-    Vector3f::Map(nodes_[i].normal) = turn * normal;
-    Vector3f::Map(nodes_[i].tangent) = turn * along;
-    nodes_[i].light = v.light;
-    nodes_[i].key = v.key;
-}
-
-raster::Place RasterNodes::place_of(const Eigen::Vector4f& clip, float height) const {
-    const float shrink = 1 / clip.w();
-    const float near = orthographic_ ? (1 + height * far_) * far_ : shrink;
-    const Eigen::Vector2f from_middle = (clip.head<2>() * shrink).cwiseProduct(half_picture_);
-    const bool can =
-        clip.w() > 0 && std::abs(clip.z()) <= clip.w() && from_middle.cwiseAbs().maxCoeff() < raster::kGuard;
-    if (!can) return {0, 0, 0};
-    const Eigen::Vector2f at = (from_middle + half_picture_) * raster::kSteps;
-    return {static_cast<std::int32_t>(std::lrint(at.x())), static_cast<std::int32_t>(std::lrint(at.y())),
-            near};
 }
 
 }  // namespace viaface

@@ -16,25 +16,18 @@ std::vector<raster::Facet> facets_of(const Face& face);
 
 class RasterNodes {
   public:
-    RasterNodes(const Face& face, const View& view);
+    RasterNodes(const Face& face, const View& view, const raster::Kernel& kernel);
 
-    // With `again`, nodes that `posed` calls unchanged stay, and what is hidden gets its place alone.
+    // With `again`, nodes that `posed` calls unchanged stay.
     void place(const PosedVertices& posed, bool again, WorkPool& pool);
     const std::vector<raster::Node>& nodes() const { return nodes_; }
 
   private:
-    void place(const Vertex& vertex, int node);
-    void light(const Vertex& vertex, int node);
-    raster::Place place_of(const Eigen::Vector4f& clip, float height) const;
-
-    bool orthographic_;
-    Eigen::Vector2f half_picture_;  // pixels
-    float far_;                     // 1 / distance of the camera, 1/mm
-    Eigen::Matrix4f world_from_head_, clip_from_world_;
-    Eigen::Vector3f eye_;
-    std::vector<std::uint8_t> lash_;  // of each node: 1 where it is a lash's
+    const raster::Kernel& kernel_;
+    std::vector<std::uint8_t> lash_;
     Tangents tangents_;
     std::vector<raster::Node> nodes_;
+    raster::Placing placing_{};
 };
 
 }  // namespace viaface

@@ -84,15 +84,16 @@ class RasterPainter : public Painter {
   public:
     RasterPainter(const Face& face, const Surfaces& surfaces, const View& view, Instructions widest,
                   WorkPool& pool)
-        : facets_(facets_of(face)),
-          nodes_(face, view),
+        : kernel_(kernel_of(widest)),
+          pool_(pool),
+          facets_(facets_of(face)),
+          nodes_(face, view, kernel_),
           background_(std::size_t(view.width) * view.height),
           alone_(background_.size()),
           of_facets_(facets_.size()),
+          visible_(WorkPool::pieces(int(facets_.size()))),
           fine_(facets_, face.weld, view.width, view.height),
           lists_(view.height),
-          kernel_(kernel_of(widest)),
-          pool_(pool),
           workspaces_(pool.threads(), Workspace(view.width)) {
         prepare_textures(surfaces);
         const Texture background = make_background(view);
@@ -106,14 +107,18 @@ class RasterPainter : public Painter {
         raster::Scene scene = scene_;
         scene.rgba = reinterpret_cast<std::uint32_t*>(rgba);
         scene.opening = bounds_of(posed.mouth().opening());
-        pool_.share_rows(int(facets_.size()), [&](int first, int end) {
+        const Sight sight{facets_, of_facets_.boxes, of_facets_.seen, scene.opening,
+                          rects.empty() ? raster::Bounds{} : bounds_of(rects)};
+        pool_.share_rows(int(facets_.size()), [&](int first, int end, int) {
             for (int i = first; i < end; ++i) of_facets_.still[i] = again && !changed(posed, facets_[i]);
             kernel_.set_up(scene, first, end);
+            find_visible(sight, first, end, visible_[first / WorkPool::kRowsAtOnce]);
         });
         if (rects.empty()) return;
-        const Visible visible{facets_,         nodes_.nodes(), of_facets_.boxes,
-                              of_facets_.seen, scene.opening,  bounds_of(rects)};
-        pool_.share(2, [&](int item, int) { item == 0 ? lists_.list(rects, visible) : fine_.find(visible); });
+        fine_.find_outlines(of_facets_.seen, pool_);
+        pool_.share(2, [&](int item, int) {
+            item == 0 ? lists_.list(rects, visible_) : fine_.mark(nodes_.nodes(), visible_, sight.drawn);
+        });
         pool_.share(int(lists_.stripes().size()), [&](int item, int thread) {
             const auto& [bounds, facets] = lists_.stripes()[item];
             kernel_.draw(scene, {bounds, facets.data(), static_cast<std::int32_t>(facets.size())},
@@ -177,6 +182,8 @@ class RasterPainter : public Painter {
         return posed.changed(a) || posed.changed(b) || posed.changed(c);
     }
 
+    const raster::Kernel& kernel_;
+    WorkPool& pool_;
     std::vector<raster::Facet> facets_;
     RasterNodes nodes_;
     std::vector<raster::TexelWays> texel_ways_;
@@ -185,11 +192,10 @@ class RasterPainter : public Painter {
     std::vector<std::uint32_t> background_;
     std::vector<std::uint32_t> alone_;  // of each pixel, as in Scene
     FacetArrays of_facets_;
+    std::vector<std::vector<VisibleFacet>> visible_;  // piece by piece
     FinePixels fine_;
     StripeLists lists_;
     raster::Scene scene_{};
-    const raster::Kernel& kernel_;
-    WorkPool& pool_;
     std::vector<Workspace> workspaces_;
 };
 

@@ -37,10 +37,23 @@ struct alignas(64) Node {
     Place place;
     float normal[3];   // unit, world
     float tangent[3];  // across the normal, world
-    float s, t;        // of the texture, from its upper left corner
     float light, key;  // shares of the outside light and of the key light that get here
+    float s, t;        // of the texture, from its upper left corner
     float side;        // bitangent = side * normal x tangent
     float unused;
+};
+
+// From posed vertices to nodes.
+struct Placing {
+    const float* vertices;     // [nodes x 8]: place, mm, and unit normal in the head frame, light, key
+    const float* tangents;     // [nodes x 4]: at rest, unit, head frame, and one that is over
+    const std::uint8_t* lash;  // of each node: 1 where it is a lash's, which is drawn before what it lies on
+    Node* nodes;               // s, t and side stay as they are
+    float world_from_head[3][4], clip_from_world[4][4], eye[3];
+    float half_width, half_height;  // of the picture, pixels
+    float far;                      // 1 / distance of the camera, 1/mm
+    float lashes_before;            // mm
+    bool orthographic;
 };
 
 // Texels of 8 bytes: base R G B A, detail R G B A. A border of one texel goes round: sideways the texture
@@ -153,6 +166,7 @@ struct Scratch {
 };
 
 struct Kernel {
+    void (*place)(const Placing& placing, const std::int32_t* nodes, int count);
     // Of the facets from `first` to `end`, multiples of kFacetsAtOnce, those that are not still, and some
     // more.
     void (*set_up)(const Scene& scene, int first, int end);

@@ -8,11 +8,13 @@ using raster::Bounds;
 
 StripeLists::StripeLists(int height) : rows_((height + raster::kStripeRows - 1) / raster::kStripeRows) {}
 
-void StripeLists::list(std::span<const Rect> rects, const Visible& visible) {
+void StripeLists::list(std::span<const Rect> rects, VisibleFacets visible) {
     count_ = 0;
     for (std::vector<int>& row : rows_) row.clear();
     for (const Rect& rect : rects) cut(rect);
-    list_facets(visible);
+    for (const std::vector<VisibleFacet>& piece : visible) {
+        for (const VisibleFacet& one : piece) list_facet(one);
+    }
     std::sort(stripes_.begin(), stripes_.begin() + std::ptrdiff_t(count_),
               [](const StripeList& a, const StripeList& b) { return a.facets.size() > b.facets.size(); });
 }
@@ -30,17 +32,13 @@ void StripeLists::cut(const Rect& rect) {
     }
 }
 
-void StripeLists::list_facets(const Visible& visible) {
-    for (int i = 0; i < int(visible.facets.size()); ++i) {
-        if (!visible.seen[i]) continue;
-        const Bounds box = box_of(visible, i);
-        if (box.left >= box.right) continue;
-        for (int row = box.bottom / raster::kStripeRows; row * raster::kStripeRows < box.top; ++row) {
-            for (const int stripe : rows_[row]) {
-                const Bounds& within = stripes_[stripe].bounds;
-                if (box.left < within.right && box.right > within.left)
-                    stripes_[stripe].facets.push_back(std::uint32_t(i));
-            }
+void StripeLists::list_facet(const VisibleFacet& visible) {
+    const Bounds& box = visible.box;
+    for (int row = box.bottom / raster::kStripeRows; row * raster::kStripeRows < box.top; ++row) {
+        for (const int stripe : rows_[row]) {
+            const Bounds& within = stripes_[stripe].bounds;
+            if (box.left < within.right && box.right > within.left)
+                stripes_[stripe].facets.push_back(visible.facet);
         }
     }
 }

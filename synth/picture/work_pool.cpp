@@ -5,7 +5,6 @@
 namespace viaface {
 namespace {
 
-constexpr int kRowsAtOnce = 512;
 constexpr int kLooks = 500;  // before sleep, a few tenths of a millisecond
 
 // Returns when the number is another.
@@ -45,8 +44,9 @@ void WorkPool::share(int items, const Work& work) {
 }
 
 void WorkPool::share_rows(int rows, const Rows& work) {
-    share((rows + kRowsAtOnce - 1) / kRowsAtOnce,
-          [&](int item, int) { work(item * kRowsAtOnce, std::min(rows, (item + 1) * kRowsAtOnce)); });
+    share(pieces(rows), [&](int item, int thread) {
+        work(item * kRowsAtOnce, std::min(rows, (item + 1) * kRowsAtOnce), thread);
+    });
 }
 
 void WorkPool::serve(int thread) {

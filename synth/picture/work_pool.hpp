@@ -12,8 +12,8 @@ namespace viaface {
 
 class WorkPool {
   public:
-    using Work = std::function<void(int item, int thread)>;  // may not throw
-    using Rows = std::function<void(int first, int end)>;    // may not throw
+    using Work = std::function<void(int item, int thread)>;            // may not throw
+    using Rows = std::function<void(int first, int end, int thread)>;  // may not throw
 
     explicit WorkPool(int threads);
     ~WorkPool();
@@ -23,8 +23,10 @@ class WorkPool {
     int threads() const { return static_cast<int>(workers_.size()) + 1; }
     // Does items 0 to `items` - 1, each once; returns when all are done.
     void share(int items, const Work& work);
-    // Does rows 0 to `rows` - 1, each once, some hundred at a time.
+    // Does rows 0 to `rows` - 1, each once, kRowsAtOnce at a time.
     void share_rows(int rows, const Rows& work);
+    static constexpr int kRowsAtOnce = 512;
+    static int pieces(int rows) { return (rows + kRowsAtOnce - 1) / kRowsAtOnce; }
 
   private:
     void serve(int thread);

@@ -50,7 +50,12 @@ struct Sheet {
         FinePixels pixels(facets, weld, kWidth, kHeight);
         std::vector<raster::Bounds> boxes;
         for (const raster::Facet& facet : facets) boxes.push_back(box_of(facet));
-        pixels.find({facets, nodes, boxes, seen, opening, {0, 0, kWidth, kHeight}});
+        const raster::Bounds drawn{0, 0, kWidth, kHeight};
+        std::vector<std::vector<VisibleFacet>> visible(1);
+        find_visible({facets, boxes, seen, opening, drawn}, 0, int(facets.size()), visible[0]);
+        WorkPool pool(1);
+        pixels.find_outlines(seen, pool);
+        pixels.mark(nodes, visible, drawn);
         return pixels.bits()[std::size_t(y) * pixels.words() + x / 64] >> (x % 64) & 1;
     }
 };
