@@ -20,40 +20,33 @@ struct Lit {
 };
 
 VIAFACE_INLINE WideInt weights_across(Wide share) {
-    const WideInt right = __builtin_convertvector(share * float(Blend::kAcross) + 0.5f, WideInt);
-    const WideInt once = (Blend::kAcross - right) | right << 8;
+    const WideInt right = __builtin_convertvector(share * float(Quads::kAcross) + 0.5f, WideInt);
+    const WideInt once = (Quads::kAcross - right) | right << 8;
     return once | once << 16;
 }
 VIAFACE_INLINE WideInt weights_down(Wide share) {
-    const WideInt lower = __builtin_convertvector(share * float(Blend::kDown) + 0.5f, WideInt);
-    return (Blend::kDown - lower) | lower << 16;
+    const WideInt lower = __builtin_convertvector(share * float(Quads::kDown) + 0.5f, WideInt);
+    return (Quads::kDown - lower) | lower << 16;
 }
 
 // Channel by channel, 0 to 1; bilinear, in steps of the weights; sideways the texture repeats.
 VIAFACE_INLINE void fetch(const Level* const (&levels)[kLanes], Wide s, Wide t, Wide (&channels)[8]) {
     Four sizes[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) sizes[lane] = load<Four>(&levels[lane]->columns);
-    Wide size[4];
+    Wide size[4];  // columns, rows, stride
     turn(sizes, size);
     s = lesser(greater(s, wide(-1e6f)), wide(1e6f));
     const Wide column = (s - floor(s)) * size[0] + 0.5f;
     const Wide row = lesser(positive(t), wide(1.0f)) * size[1] + 0.5f;
     const Wide left = floor(column), upper = floor(row);
-    std::int32_t across[kLanes], down[kLanes];
-    store(across, weights_across(column - left));
-    store(down, weights_down(row - upper));
     const WideInt texel = __builtin_convertvector(left, WideInt),
                   line = __builtin_convertvector(upper, WideInt);
-    Eight texels[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-        const std::ptrdiff_t stride = levels[lane]->stride;
-        const std::uint8_t* const at =
-            levels[lane]->border + line[lane] * stride + std::ptrdiff_t(texel[lane]) * 8;
-        texels[lane] = Eight(blended(at, at + stride, {across[lane], down[lane]}));
-    }
-    turn(texels, channels);
-    constexpr float kAll = 255.0f * Blend::kAcross * Blend::kDown;
-    for (Wide& channel : channels) channel = __builtin_convertvector(WideInt(channel), Wide) * (1 / kAll);
+    Quads quads;
+    quads.levels = levels;
+    store(quads.offset, line * WideInt(size[2]) + texel * 8);
+    store(quads.across, weights_across(column - left));
+    store(quads.down, weights_down(row - upper));
+    blend(quads, channels);
 }
 
 // Of kLanes facets.

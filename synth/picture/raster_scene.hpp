@@ -60,8 +60,8 @@ struct Placing {
 // repeats, up and down its edge does.
 struct Level {
     float columns, rows;         // without the border
-    std::ptrdiff_t stride;       // bytes from a row to the next
-    const std::uint8_t* border;  // [(height + 2) x (width + 2) x 8]
+    std::uint32_t stride;        // bytes from a row to the next
+    const std::uint8_t* border;  // [(height + 2) x (width + 2) x 8], within 2^32 bytes
 };
 
 enum class Shade : std::uint8_t { kSkin, kInside, kEye, kCloth, kLash };

@@ -66,7 +66,7 @@ RasterTextures::RasterTextures(const PackedTextures& packed) {
     Canvas canvas = largest(packed);
     for (std::size_t i = 0;; ++i) {
         const raster::Level level{float(canvas.width), float(canvas.height),
-                                  std::ptrdiff_t(canvas.width + 2) * kTexel, canvas.texels.data()};
+                                  std::uint32_t(canvas.width + 2) * kTexel, canvas.texels.data()};
         const bool last = canvas.width == 1 && canvas.height == 1;
         Canvas coarser = last ? Canvas(1, 1) : halved(canvas);
         texels_.push_back(std::move(canvas.texels));

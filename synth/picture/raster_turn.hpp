@@ -81,14 +81,9 @@ VIAFACE_INLINE void turn(const Wide (&columns)[4], Four (&rows)[kLanes]) {
     }
 }
 
-// Rows of eight become eight columns.
-VIAFACE_INLINE void turn(const Eight (&rows)[kLanes], Wide (&columns)[8]) {
-#if defined(__AVX512F__)
-    for (int i = 0; i < 8; ++i)
-        columns[i] = _mm512_maskz_insertf32x8(0xffff, _mm512_castps256_ps512(rows[i]), rows[i + 8], 1);
-#else
-    for (int i = 0; i < 8; ++i) columns[i] = rows[i];
-#endif
+// Rows of eight become eight columns; each vector holds a row, and where there are sixteen rows
+// the one that is eight rows further on.
+VIAFACE_INLINE void turn_joined(Wide (&columns)[8]) {
     transpose_fours(columns);
     transpose_fours(columns + 4);
     for (int i = 0; i < 4; ++i) {
@@ -102,6 +97,17 @@ VIAFACE_INLINE void turn(const Eight (&rows)[kLanes], Wide (&columns)[8]) {
         columns[i + 4] = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
 #endif
     }
+}
+
+VIAFACE_INLINE void turn(const Eight (&rows)[kLanes], Wide (&columns)[8]) {
+    for (int i = 0; i < 8; ++i) {
+#if defined(__AVX512F__)
+        columns[i] = _mm512_maskz_insertf32x8(0xffff, _mm512_castps256_ps512(rows[i]), rows[i + 8], 1);
+#else
+        columns[i] = rows[i];
+#endif
+    }
+    turn_joined(columns);
 }
 
 #if defined(__AVX512F__)
