@@ -83,7 +83,7 @@ std::vector<raster::Facet> facets_of(const Face& face) {
 }
 
 RasterNodes::RasterNodes(const Face& face, const View& view, const raster::Kernel& kernel)
-    : kernel_(kernel), lash_(lashes_of(face)), nodes_(face.rest.rows()) {
+    : kernel_(kernel), of_view_(placing_of(view)), lash_(lashes_of(face)), nodes_(face.rest.rows()) {
     NodesF normals;
     NodeNormals(face).compute(face.rest.cast<float>(), normals);
     tangents_ = rest_tangents(face, normals);
@@ -92,15 +92,15 @@ RasterNodes::RasterNodes(const Face& face, const View& view, const raster::Kerne
         nodes_[i].t = 1 - face.uvs(i, 1);
         nodes_[i].side = tangents_(i, 3);
     }
-    placing_ = placing_of(view);
-    placing_.tangents = tangents_.data();
-    placing_.lash = lash_.data();
-    placing_.nodes = nodes_.data();
 }
 
 void RasterNodes::place(const PosedVertices& posed, bool again, WorkPool& pool) {
-    raster::Placing placing = placing_;
-    placing.vertices = posed.vertices().front().place;
+    raster::Placing placing = of_view_;
+    static_assert(sizeof(Vertex) == 8 * sizeof(float));
+    placing.vertices = reinterpret_cast<const float*>(posed.vertices().data());
+    placing.tangents = tangents_.data();
+    placing.lash = lash_.data();
+    placing.nodes = nodes_.data();
     pool.share_rows(int(nodes_.size()), [&](int first, int end, int) {
         std::array<std::int32_t, WorkPool::kRowsAtOnce> changed;
         int count = 0;

@@ -24,10 +24,10 @@ class RasterNodes {
 
   private:
     const raster::Kernel& kernel_;
-    std::vector<std::uint8_t> lash_;
+    const raster::Placing of_view_;   // what the view alone tells
+    std::vector<std::uint8_t> lash_;  // of each node: 1 where it is a lash's
     Tangents tangents_;
     std::vector<raster::Node> nodes_;
-    raster::Placing placing_{};
 };
 
 }  // namespace viaface

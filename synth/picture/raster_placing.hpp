@@ -36,7 +36,7 @@ class PlacingLanes {
         const Three normal{vertex[3], vertex[4], vertex[5]};
         const Three along = across({tangent[0], tangent[1], tangent[2]}, normal);
         const Three turned = in_world(normal), turned_along = in_world(along);
-        Wide place[4];
+        Wide place[4];  // as in Place
         put(world_place({vertex[0], vertex[1], vertex[2]}, load<WideInt>(lashes)), place);
         write(0, place);
         write(4, {turned.x, turned.y, turned.z, turned_along.x});
@@ -60,7 +60,6 @@ class PlacingLanes {
         return {lash ? before.x : world.x, lash ? before.y : world.y, lash ? before.z : world.z};
     }
 
-    // Where a place lies in the picture, as in Place.
     VIAFACE_INLINE void put(const Three& world, Wide (&place)[4]) const {
         const auto& m = placing_.clip_from_world;
         const Wide x = row_times(m[0], world) + m[0][3], y = row_times(m[1], world) + m[1][3],

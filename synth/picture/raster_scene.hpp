@@ -2,15 +2,16 @@
 // instruction set and may share no inline function with the rest of the program but those that are always
 // inlined.
 //
-// Facets are set up as triangles of the picture, several at a time, where they have moved. Then stripes of
-// rows are drawn, each in three steps. Triangles first settle what is in front (a visibility buffer: C. A.
-// Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach to deferred shading", JCGT 2(2),
-// 2013): in the middle of each pixel, and at four samples of the fine pixels, in which more than one surface
-// may be seen (FinePixels). Then each pixel is shaded once for every surface that it sees, eight or sixteen
-// fragments at a time, but for pixels that hold one triangle alone, now and before, which has not moved: they
-// keep their colour. Of fine pixels, triangles that continue each other count as one surface, so that edges
-// are as smooth as with multisampling. Last come the lashes, blended in their order. Departures: no clipping;
-// a triangle with a corner outside kGuard or behind the camera is not drawn.
+// Where they have moved, posed vertices are placed as nodes and facets set up as triangles of the picture,
+// several at a time. Then stripes of rows are drawn, each in three steps. Triangles first settle what is in
+// front (a visibility buffer: C. A. Burns and W. A. Hunt, "The visibility buffer: a cache-friendly approach
+// to deferred shading", JCGT 2(2), 2013): in the middle of each pixel, and at four samples of the fine
+// pixels, in which more than one surface may be seen (FinePixels). Then each pixel is shaded once for every
+// surface that it sees, eight or sixteen fragments at a time, but for pixels that hold one triangle alone,
+// now and before, which has not moved: they keep their colour. Of fine pixels, triangles that continue each
+// other count as one surface, so that edges are as smooth as with multisampling. Last come the lashes,
+// blended in their order. Departures: no clipping; a triangle with a corner outside kGuard or behind the
+// camera is not drawn.
 #pragma once
 
 #include <cstddef>
@@ -166,6 +167,7 @@ struct Scratch {
 };
 
 struct Kernel {
+    // The nodes that are listed.
     void (*place)(const Placing& placing, const std::int32_t* nodes, int count);
     // Of the facets from `first` to `end`, multiples of kFacetsAtOnce, those that are not still, and some
     // more.
