@@ -70,9 +70,12 @@ class GlPainter : public Painter {
         fill_buffer(buffers_.vertices, vertices.data(), vertices.size(), GL_STREAM_DRAW);
         glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices_.size() * sizeof(GLuint)), indices_.data(),
                      GL_STREAM_DRAW);
-        picture_.bind();
-        for (std::size_t i = 0; i < rects.size(); ++i) draw(rects[i], batches[i]);
-        for (const Rect& rect : rects) picture_.read(rect, rgba);
+        // One by one: what is drawn within a scissor spoils samples of the row beyond it.
+        for (std::size_t i = 0; i < rects.size(); ++i) {
+            picture_.bind();
+            draw(rects[i], batches[i]);
+            picture_.read(rects[i], rgba);
+        }
     }
 
   private:

@@ -81,8 +81,8 @@ VIAFACE_INLINE void turn(const Wide (&columns)[4], Four (&rows)[kLanes]) {
     }
 }
 
-// Rows of eight become eight columns; each vector holds a row, and where there are sixteen rows
-// the one that is eight rows further on.
+// Rows of eight become eight columns; each vector holds a row, and where there are sixteen rows the one that
+// is eight rows further on.
 VIAFACE_INLINE void turn_joined(Wide (&columns)[8]) {
     transpose_fours(columns);
     transpose_fours(columns + 4);

@@ -136,6 +136,16 @@ TEST(Portrait, AMouthThatOpensAndShutsEqualsItselfDrawnWhole) {
     }
 }
 
+TEST(Portrait, TheReferenceToo) {
+    const View view{.width = 160, .height = 160};
+    const Drawing reference{.renderer = Renderer::kOsmesa};
+    Portrait changed(momo(), view, reference);
+    for (const double share : {0.0, 0.3, 0.1}) {
+        const Nodes posed = opened(share, share);
+        ASSERT_EQ(bytes(changed.draw(posed)), bytes(Portrait(momo(), view, reference).draw(posed))) << share;
+    }
+}
+
 TEST(Portrait, LessThanAHairIsNoMove) {
     const Face face = two_balls();
     Portrait portrait(face, kSmallBlack);

@@ -21,7 +21,8 @@ using testing::waves;
 
 const View kViews[] = {{.width = 201, .height = 150, .yaw = 20},
                        {.width = 96, .height = 260, .tilt = 15, .background = Rgb{0, 177, 64}},
-                       {.width = 333, .height = 333, .roll = 30}};
+                       {.width = 333, .height = 333, .roll = 30},
+                       {.width = 180, .height = 140, .yaw = 30, .orthographic = true}};
 
 double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     double squares = 0;
