@@ -125,18 +125,19 @@ class Reader {
     }
 
     std::size_t data_start() {
-        const std::size_t header = word(9),
-                          parameter =
-                              static_cast<std::size_t>(parameters_.number("POINT:DATA_START").value_or(0));
+        const double told = parameters_.number("POINT:DATA_START").value_or(0);
+        const bool is_block = told >= 0 && told <= 0xffff;
+        const std::size_t header = word(9), parameter = is_block ? static_cast<std::size_t>(told) : 0;
         const auto behind = [&](std::size_t block) {
             return block > 1 && (block - 1) * kC3dBlock > parameters_.last();
         };
         if (!behind(header) && !behind(parameter))
             bytes_.fail("data from block " + std::to_string(header), "a block behind the parameters");
         const std::size_t block = behind(header) ? header : parameter;
-        if (parameter != 0 && parameter != header)
+        if (!is_block || (parameter != 0 && parameter != header))
             recording_.remarks.push_back("the header starts the data at block " + std::to_string(header) +
-                                         ", POINT:DATA_START at " + std::to_string(parameter) +
+                                         ", POINT:DATA_START at " +
+                                         (is_block ? std::to_string(parameter) : shown(told)) +
                                          "; read from " + std::to_string(block));
         return (block - 1) * kC3dBlock;
     }
